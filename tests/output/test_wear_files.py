@@ -12,6 +12,8 @@ import signorini as sg
 from signorini.cli.main import main
 from signorini.gallery.wearing import rubbed_cylinder, to_and_fro
 from signorini.output.table import history_table
+from signorini.plot.picture_data import PictureData
+from signorini.plot.wear import draw_wear
 
 
 @pytest.fixture(scope="module")
@@ -57,3 +59,12 @@ def test_wear_is_drawn(run, capsys):
     words = (out / "wear.svg").read_text()
     assert len(words) > 10_000
     capsys.readouterr()
+
+
+def test_the_picture_counts_the_cycles_of_steps_that_repeat(run):
+    """The press before them is none: what it has worn is where no cycle is behind."""
+    _, solution, _ = run
+    figure = draw_wear(PictureData(solution))
+    deepest = figure.axes[2].lines[0]
+    assert deepest.get_xdata().tolist() == [0, 1, 2, 5, 6]
+    assert deepest.get_ydata()[-1] == solution.last.contacts[0].wear.deepest[0]

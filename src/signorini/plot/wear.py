@@ -56,7 +56,7 @@ class _Course:
 
     Attributes
     ----------
-    cycles : (k,) numbers of them
+    cycles : (k,) numbers of them; steps that do not repeat are none, where others do
     contacts, worn : the contact, and its wear
     """
 
@@ -67,11 +67,16 @@ class _Course:
 
 def _course(history: History, i: int) -> _Course:
     last: dict[int, ContactResult] = {}
+    repeats = any(step.cycles for step in history.steps)
+    behind, skipped = 0, 0
     for step in history.steps:
         for instant in step.instants:
             contact = instant.contacts[i]
             if contact.wear is not None:
-                last[contact.wear.cycles] = contact
+                behind = contact.wear.cycles - skipped
+                if repeats and not step.cycles:
+                    behind, skipped = max(last, default=behind), skipped + behind - max(last, default=behind)
+                last[behind] = contact
     cycles = sorted(last)
     contacts = [last[number] for number in cycles]
     return _Course(
