@@ -61,7 +61,9 @@ def different(one: Any, two: Any, path: str = "") -> Iterator[str]:
     """Where two results are not the same to the last bit; names of steps and loads counted from 1 may differ."""
     if is_dataclass(one):
         for part in fields(one):
-            if part.name not in ("name", "load_factor", "notes", "first"):
+            if part.name == "first":
+                yield from first_yield(getattr(one, part.name), getattr(two, part.name), path)
+            elif part.name not in ("name", "load_factor", "notes"):
                 yield from different(getattr(one, part.name), getattr(two, part.name), f"{path}.{part.name}")
     elif isinstance(one, np.ndarray):
         if not np.array_equal(one, two, equal_nan=one.dtype.kind == "f"):
@@ -76,6 +78,13 @@ def different(one: Any, two: Any, path: str = "") -> Iterator[str]:
             yield from different(one[key], two[key], f"{path}[{key}]")
     elif one != two and not (one != one and two != two):
         yield path
+
+
+def first_yield(one: float | None, two: float | None, path: str) -> Iterator[str]:
+    """Where load factors of first yield, which count the steps of a run, are not at the same part of a step."""
+    apart = (one is None) != (two is None)
+    if apart or (one is not None and two is not None and abs((one - two) - round(one - two)) > 1e-14):
+        yield f"{path}.first"
 
 
 def some(names, values, **size):

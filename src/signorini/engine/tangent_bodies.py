@@ -132,7 +132,7 @@ class TangentBodies:
         S = sp.csr_array((data, rows.indices, rows.indptr), shape=rows.shape)
         softer = self.reduced.data - self.gather @ data
         reduced = sp.csr_array((softer, self.reduced.indices, self.reduced.indptr), shape=self.reduced.shape)
-        return S, sp.csr_array(self.K - S), reduced
+        return S, self.K - S, reduced
 
     def solver(self, reduced: sp.csr_array, clock: Clock) -> ContactSolver:
         """Contact on bodies of a stiffness (z, z) on the pattern of all tangents; ``clock`` counts the seconds.
