@@ -41,7 +41,8 @@ _SOON = 1e-3  # of a part: a point that flows by then flows from the start
 _YIELD_ROUNDS = 30  # of regula falsi: a few where contact grows, as pressures do with a power of the load
 _NEAR_YIELD = 1e-6  # of the yield stress: how near it the fullest point is where first yield is found
 _INSIDE = 1e-3  # of the bracket: how near its ends the next try may be
-_HERTZ = 2.0  # power of the stress that the load of a line contact grows with
+_LINE, _POINT = 2.0, 3.0  # powers of the stress that the loads of Hertz's contacts grow with
+_UNSTRESSED = 1e-3  # of the yield stress: what a point has where only the load stresses it
 _AHEAD = 1.5  # times the load at which Hertz's line contact yields: so far ahead first yield is looked for
 _MOST_AHEAD = 0.5  # of a part: where that is more, all of it
 
@@ -99,6 +100,9 @@ def elastic_part(
             return _below_yield(prepared, joined(behind), ELASTIC), None
         part = part.rest(ahead, followed.after)
     exactly = None if followed is None or lost is not None else followed.until
+    bracket = found.bracket
+    if exactly is None and bracket.below <= _UNSTRESSED - 1.0:
+        found = found._replace(factor=bracket.high / (1.0 + bracket.above) ** _hertz(prepared))
 
     def again(cut: StepPart, factor: float) -> FollowedPart:
         return elastically(_frozen(cut)) if exactly is None else exactly(factor)
@@ -117,8 +121,13 @@ def _ahead(part: StepPart, tried: int) -> StepPart:
     if u is None:
         return part
     end = replace(part.before, point=part.end, displacement=u)
-    share = 4.0**tried * _AHEAD / max(fullest(part.prepared, end), 1.0) ** _HERTZ
+    share = 4.0**tried * _AHEAD / max(fullest(part.prepared, end), 1.0) ** _hertz(part.prepared)
     return part if share > _MOST_AHEAD else part.cut(share, "event")
+
+
+def _hertz(prepared: Prepared) -> float:
+    """Power of the stress that the load of a contact grows with."""
+    return _LINE if prepared.interface.directions == 2 and not prepared.model.axisymmetric else _POINT
 
 
 def _up_to_yield(
@@ -158,7 +167,7 @@ def _by_power(one: tuple[float, float], two: tuple[float, float], aim: float) ->
 
     Where one of them is nothing it is that of Hertz's line contact.
     """
-    exponent = _HERTZ
+    exponent = _LINE
     if min(one[0], 1.0 + one[1]) > 0.0:
         grown, stretched = (1.0 + two[1]) / (1.0 + one[1]), two[0] / one[0]
         if min(grown, stretched) <= 0.0 or grown == 1.0:

@@ -245,7 +245,6 @@ class PlasticSolver:
                         step, answer, after = way.shortened(reached[1], after)
                     lack = lack if step == 1.0 else self._lack(increment, answer, after)
                 before = state.displacement[system.constraints.leaders] if reached is None else reached[0].free
-                after = bodies.with_dual(after, old, heat, model=model, reached=linear)
             kept = rounds.last
             rounds.add(lack, step, Mechanism(answer.free - before, answer.forces))
             asked = _LACK_IN_ROUNDS * kept <= _BALANCED or len(rounds.steps) == 1  # of contact for all its digits
@@ -264,7 +263,9 @@ class PlasticSolver:
                 rounds.least = _STIFFER_PARTS[0]
             if stiffer or step < 1.0 or self._pays(tangent, rounds):
                 del tangent  # one factor less while the next is made
-                tangent, model = self._softened(after, increment, rounds), after
+                with increment.clock.phase("plasticity"):
+                    model = after = bodies.with_dual(after, old, heat, model=model, reached=linear)
+                tangent, reached = self._softened(after, increment, rounds), (answer, after)
                 x = self._right(after, tangent, answer, system.constraints)
                 rounds.inputs, rounds.outputs = [], []
             else:

@@ -317,8 +317,8 @@ def _flowing(made: Prepared, yielding: YieldingBodies | None) -> Prepared:
     if yielding is None or made.reduced is None:
         return made
     whole, plans = made.solver.paths is None, made.plans or Plans()
-    tangents = TangentBodies.of(
-        made, made.K, made.reduced, yielding, made.candidates, whole, made.backend, made.settings, plans
+    tangents = TangentBodies(
+        made, yielding, made.K, made.reduced, made.candidates, whole, made.backend, made.settings, plans
     )
     solver = PlasticSolver(
         elastic=made.solver, tangents=tangents, interface=made.interface, scale=made.scale, absent=made.absent

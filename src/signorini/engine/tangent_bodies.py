@@ -25,7 +25,7 @@ from signorini.plasticity.bodies import PlasticResponse, YieldingBodies
 from signorini.settings import SolverSettings
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class TangentBodies:
     """Makes the bodies of a round.
 
@@ -34,10 +34,7 @@ class TangentBodies:
     examined : the model
     yielding : the points of the bodies that yield
     K : (dofs, dofs) elastic stiffness
-    reduced : (z, z) the same on the free displacements, on the pattern of all tangents
-    B : (d n, z) relative displacements of the pairs
-    rows : (dofs, dofs) pattern of what yielding takes off
-    gather : (entries of `reduced`, entries of `rows`) takes the one from the other
+    stiffness : (z, z) the same on the free displacements
     near : (n,) pairs that the law is asked of
     whole : whether contact is iterated on the bodies as they are
     backend, settings : of the factorisation and the methods
@@ -47,62 +44,29 @@ class TangentBodies:
     examined: Examined
     yielding: YieldingBodies
     K: sp.csr_array
-    reduced: sp.csr_array
-    B: sp.csr_array
-    rows: sp.csr_array
-    gather: sp.csc_array
+    stiffness: sp.csr_array
     near: BoolArray
     whole: bool
     backend: str
     settings: SolverSettings
     plans: Plans
 
-    @staticmethod
-    def of(
-        examined: Examined,
-        K: sp.csr_array,
-        reduced: sp.csr_array,
-        yielding: YieldingBodies,
-        near: BoolArray,
-        whole: bool,
-        backend: str,
-        settings: SolverSettings,
-        plans: Plans,
-    ) -> TangentBodies:
-        """Patterns, once for all tangents.
+    @cached_property
+    def _patterns(self) -> tuple[sp.csr_array, sp.csr_array, sp.csc_array]:
+        """Once for all tangents, where there is any.
 
-        Parameters
-        ----------
-        examined : the model
-        K, reduced : (dofs, dofs) elastic stiffness, and (z, z) the same on the free displacements
-        yielding : the points of the bodies that yield
-        near : (n,) pairs that the law is asked of
-        whole : whether contact is iterated on the bodies as they are
-        backend, settings, plans : of the factorisation and the methods
+        Pattern (dofs, dofs) of what yielding takes off; `stiffness` on a pattern (z, z) that holds what that is there,
+        and (entries of the one, entries of the other) what takes it there.
         """
-        T = examined.constraints.transform
-        rows = yielding.rows()
-        reduced, gather = on_one_pattern(reduced, rows, T)
-        return TangentBodies(
-            examined=examined,
-            yielding=yielding,
-            K=K,
-            reduced=reduced,
-            B=sp.csr_array(examined.interface.B @ T),
-            rows=rows,
-            gather=gather,
-            near=near,
-            whole=whole,
-            backend="auto" if backend == ITERATIVE else backend,
-            settings=settings,
-            plans=plans,
-        )
+        rows = self.yielding.rows()
+        return rows, *on_one_pattern(self.stiffness, rows, self.examined.constraints.transform)
 
     @cached_property
     def bodies(self) -> FreeBodies:
         """With the elastic stiffness."""
         constraints, space = self.examined.constraints, self.examined.space
-        return FreeBodies(self.reduced, self.B, constraints.nodes, space.places)
+        B = sp.csr_array(self.examined.interface.B @ constraints.transform)
+        return FreeBodies(self.stiffness, B, constraints.nodes, space.places)
 
     @cached_property
     def kept(self) -> Kept:
@@ -118,7 +82,7 @@ class TangentBodies:
     @cached_property
     def diagonal(self) -> Array:
         """(z,) Of the elastic stiffness."""
-        return np.asarray(self.reduced.diagonal(), dtype=np.float64)
+        return np.asarray(self.stiffness.diagonal(), dtype=np.float64)
 
     def softened(self, at: PlasticResponse, left: float) -> tuple[sp.csr_array, sp.csr_array, sp.csr_array]:
         """What yielding takes off, (dofs, dofs), and what is left of the stiffness, (dofs, dofs) and (z, z).
@@ -128,10 +92,9 @@ class TangentBodies:
         at : what the tangent is made at
         left : part of the elastic law that yielding leaves in place, 0 .. 1
         """
-        data, rows = self.yielding.softening(at, left), self.rows
+        data, (rows, wide, gather) = self.yielding.softening(at, left), self._patterns
         S = sp.csr_array((data, rows.indices, rows.indptr), shape=rows.shape)
-        softer = self.reduced.data - self.gather @ data
-        reduced = sp.csr_array((softer, self.reduced.indices, self.reduced.indptr), shape=self.reduced.shape)
+        reduced = sp.csr_array((wide.data - gather @ data, wide.indices, wide.indptr), shape=wide.shape)
         return S, self.K - S, reduced
 
     def solver(self, reduced: sp.csr_array, clock: Clock) -> ContactSolver:
@@ -146,7 +109,7 @@ class TangentBodies:
         """
         examined, settings = self.examined, self.settings
         if self.whole:
-            found = make_multipliers(examined, reduced, self.B, self.near, settings)
+            found = make_multipliers(examined, reduced, self.bodies.B, self.near, settings)
             return replace(found, bodies=replace(found.bodies, patience=PATIENCE))
         scale = examined.scale
         condensed = condense(
@@ -155,7 +118,7 @@ class TangentBodies:
             kept=self.kept,
             rigid=self.rigid,
             stiffness=scale.stiffness,
-            backend=self.backend,
+            backend="auto" if self.backend == ITERATIVE else self.backend,
             clock=clock,
             plans=self.plans,
         )
