@@ -104,6 +104,36 @@ def test_a_meshed_ring_rolls() -> None:
         assert np.abs(other.contacts[0].traction - contact.traction).max() < 1e-7 * contact.pressure.max()
 
 
+def test_a_hub_in_space_bears_what_contact_and_loads_leave() -> None:
+    """A block that its hub turns under a wind: forces are those of space, whatever the axes of its frame."""
+    top = sg.box(x=np.linspace(-0.5, 0.5, 3), y=np.linspace(-0.5, 0.5, 3), z=np.linspace(0.0, 1.0, 3))
+    bed = sg.box(x=np.linspace(-1.5, 1.5, 5), y=np.linspace(-1.5, 1.5, 5), z=np.linspace(-0.5, 0.0, 2))
+    model = sg.Model(
+        mesh=sg.join({"top": top, "bed": bed}),
+        kind="3d",
+        bodies=[sg.Body("top", STEEL), sg.Body("bed", STEEL)],
+        supports=[
+            sg.Support("bed.bottom", u=(0.0, 0.0, 0.0)),
+            sg.Support("hub", u=(0.0, 0.0, None, 0.0, 0.0, 0.3), name="turn"),
+        ],
+        rigid_bodies=[sg.RigidBody("hub", on="top.top", point=(0.0, 0.0, 1.0))],
+        loads=[
+            sg.Load(on="hub", force=(None, None, -1.0, None, None, None), name="press"),
+            sg.Load(on="top", body_force=(0.2, 0.0, -0.1), name="wind"),
+        ],
+        contacts=[sg.Contact("top.bottom", "bed.top", friction=0.3, sliding="finite", name="c")],
+        steps=[sg.Step(scale={"press": 1.0, "wind": 1.0, "turn": 1.0}, increments=2)],
+    )
+    step = sg.solve(model).steps[-1]
+    force, hub = step.contacts[0].forces.sum(axis=0), step.rigid_bodies["hub"]
+    assert force + hub.force + [0.2, 0.0, -0.1] == pytest.approx([0.0] * 3, abs=1e-10)
+    assert step.reactions["turn"][:2] == pytest.approx(hub.force[:2], abs=1e-12)
+    assert hub.rotation == pytest.approx([0.0, 0.0, 0.3])
+    lever = np.array([0.0, 0.0, 1.0]) + hub.displacement
+    moment = step.contacts[0].moment(lever) + step.reactions["turn"][3:] + np.cross([0.0, 0.0, -0.5], [0.2, 0.0, -0.1])
+    assert moment == pytest.approx([0.0] * 3, abs=2e-3)  # of what bodies give way by
+
+
 def test_a_roll_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
     """What its frame is read off is part of the state."""
     model = roller(angle=-0.03)

@@ -17,7 +17,7 @@ from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
 from signorini.engine.support_changes import support_forces
-from signorini.engine.turning import with_turned_loads
+from signorini.engine.turning import with_loads_in_space, with_turned_loads
 from signorini.engine.validity_notes import step_notes
 from signorini.fem.obstacles import arm
 from signorini.law.states import OPEN, STICK
@@ -59,8 +59,10 @@ def step_result(
     spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
     spent += state.plastic_work - before.plastic_work
     layers = interface_energy(prepared, state)
-    loads, _ = applied(with_turned_loads(prepared, followed.turned_at), state.point)
-    held = support_forces(prepared.constraints, state, loads)
+    turned, _ = applied(with_turned_loads(prepared, followed.turned_at), state.point)
+    held = support_forces(prepared.constraints, state, turned)
+    held = prepared.frames.about_axes(held, state.displacement)
+    loads, _ = applied(with_loads_in_space(prepared, followed.turned_at), state.point)
     model = prepared.model
     reactions = _reactions(prepared, state, held)
     springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
@@ -165,9 +167,12 @@ def _external(prepared: Prepared, state: State, loads: Array, held: Array) -> Ar
     """(nodes, d) Loads and reactions; those of a rigid body at its node of no cell, if one is at its point."""
     model, constraints = prepared.model, prepared.constraints
     if not len(constraints.dependent):
-        return prepared.space.at_nodes(prepared.frames.in_space(state.external, state.displacement))
+        if not prepared.frames:
+            return prepared.space.at_nodes(state.external)
+        force = np.where(constraints.held, state.external, prepared.frames.in_space(state.external, state.displacement))
+        return prepared.space.at_nodes(np.where(constraints.alone, loads, force))
     force = np.where(constraints.alone | (constraints.free >= 0), loads, loads + held)
-    at_nodes = prepared.space.at_nodes(prepared.frames.in_space(force, state.displacement)).copy()
+    at_nodes = prepared.space.at_nodes(force).copy()
     loose = prepared.space.loose_nodes
     for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles)):
         here = loose[(model.mesh.points[loose] == np.array(body.point)).all(axis=1)]

@@ -38,9 +38,22 @@ def with_turned_loads(prepared: Prepared, displacement: Array) -> Prepared:
     frames = prepared.frames
     if not frames or not len(displacement):
         return prepared
-    following = {load.label for load in prepared.model.loads if load.kind in _FOLLOWING}
+    there = with_loads_in_space(prepared, displacement).loads
+    return replace(prepared, loads={name: frames.felt(forces, displacement) for name, forces in there.items()})
+
+
+def with_loads_in_space(prepared: Prepared, displacement: Array) -> Prepared:
+    """The model with its loads as they are in space where bodies have moved: some kinds turn along.
+
+    Parameters
+    ----------
+    prepared, displacement : as of `with_turned_loads`
+    """
+    frames, following = prepared.frames, {load.label for load in prepared.model.loads if load.kind in _FOLLOWING}
+    if not frames or not len(displacement):
+        return prepared
     loads = {
-        name: frames.felt(frames.in_space(forces, displacement) if name in following else forces, displacement)
+        name: frames.in_space(forces, displacement) if name in following else forces
         for name, forces in prepared.loads.items()
     }
     return replace(prepared, loads=loads)

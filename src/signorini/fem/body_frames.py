@@ -122,6 +122,15 @@ class BodyFrames:
             return forces
         return np.einsum("kij,kj->ki", self.turns(displacement), forces.reshape(-1, self.dimension)).ravel()
 
+    def about_axes(self, forces: Array, displacement: Array) -> Array:
+        """(dofs,) Forces of supports, of hubs with moments about the axes of space, of what does work on rotations."""
+        found = forces.copy()
+        for frame in self.frames:
+            if len(frame.turning):
+                rates = rotation_rates(frame.motion(displacement)[1])
+                found[frame.turning] = np.linalg.solve(rates.T, forces[frame.turning])
+        return found
+
     def tangent(self, rows: sp.csr_array, displacement: Array) -> sp.csr_array:
         """Rows of derivatives by the places of nodes (k, dofs) as derivatives by displacements: ``rows J``."""
         if not self.frames:
