@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.errors import InputError, SolveFailed
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
@@ -17,6 +17,8 @@ from signorini.settings import SolverSettings
 AT_REST = "nothing has moved"
 PRESSED = "the load presses: one increment from zero slip"
 """What a first state says of itself."""
+
+_IDLE = 1e-12  # of the data: a force that rounding leaves
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,6 +56,13 @@ class PathState:
     def pairs(self) -> int:
         """Number of pairs n."""
         return len(self.state)
+
+    def bears(self, r: Array, scale: float) -> BoolArray:
+        """(n,) Pairs that more than rounding presses or rubs here or later, under forces r (d, n): their slip counts.
+
+        ``scale`` is the size of the data.
+        """
+        return np.asarray(np.maximum(np.abs(r), np.abs(self.r)).max(axis=0) > _IDLE * (scale or 1.0), dtype=np.bool_)
 
 
 def initial_state(

@@ -139,3 +139,16 @@ def test_states_are_read_only():
     with pytest.raises(ValueError, match="read-only"):
         state.h[0, 0] = 1.0
     assert replace(state, note="").note == ""
+
+
+def test_slip_counts_where_more_than_rounding_is_borne():
+    """Of a pair that nothing but rounding presses none does; friction that needs no pressure is enough."""
+    problem = ContactProblem.of(
+        W=0.5 * np.eye(6), b=np.zeros(6), friction=[0.3, 0.3, 0.3], motions=np.zeros((6, 0)), scale=1.0
+    )
+    still = initial_state(problem, np.zeros(6))
+    pressed, rubbed = np.array([[1e-14, 1e-3, 0.0], [1e-14, 0.0, 0.0]]), np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 1e-3]])
+    assert still.bears(pressed, problem.scale).tolist() == [False, True, False]
+    assert still.bears(rubbed, problem.scale).tolist() == [False, False, True]
+    assert replace(still, r=pressed).bears(rubbed, problem.scale).tolist() == [False, True, True]
+    assert not still.bears(pressed, 1e12).any()

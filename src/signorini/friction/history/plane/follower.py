@@ -255,11 +255,12 @@ class PlaneFollower(PathFollower):
         most = np.where(self.unbounded, np.inf, bound)
         friction = np.where(slips, SIGN[state] * bound, np.where(opened, 0.0, np.clip(r[1], -most, most)))
         gap, tangential = np.where(opened, np.maximum(h[0], 0.0), 0.0), np.where(state == STICK, now.anchor[0], h[1])
-        moved = np.where(slips, tangential - now.h[1], 0.0)
+        forces = np.array([p, friction])
+        moved = np.where(slips & now.bears(forces, self.problem.scale), tangential - now.h[1], 0.0)
         return PathState(
             b=b,
             h=np.array([gap, tangential]),
-            r=np.array([p, friction]),
+            r=forces,
             state=state,
             anchor=now.anchor,
             slip=now.slip + moved,

@@ -26,7 +26,6 @@ from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, STICK
 
 END_ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
-_IDLE = 1e-12  # of the data: a normal force that rounding leaves, under which nothing slips
 _VALUE_ROUNDING = 1e-12  # of the values that a rate is the difference of
 
 
@@ -166,8 +165,7 @@ def settled(problem: ContactProblem, now: PathState, trial: SolvedIncrement, sta
     h, r = end.h.copy(), np.where(closed, end.r, 0.0)
     h[0, closed] = 0.0
     h[1:] = np.where(state == STICK, now.h[1:], h[1:])
-    pressed = closed & (np.maximum(r[0], now.r[0]) > _IDLE * (problem.scale or 1.0))
-    moved = np.where(pressed, h[1:] - now.h[1:], 0.0)
+    moved = np.where(closed & now.bears(r, problem.scale), h[1:] - now.h[1:], 0.0)
     late = (trial.each < 1.0 - END_ROUNDING) & (now.state != OPEN)
     lost = -(np.where(late, r[1:], 0.5 * (r[1:] + now.r[1:])) * moved).sum(axis=0)
     return replace(end, h=h, r=r, state=state, anchor=h[1:], slip=now.slip + moved, dissipation=now.dissipation + lost)
