@@ -119,6 +119,19 @@ def test_collapse_on_the_way_to_another_temperature_is_named_where_it_is(
     assert limit * (1.0 - 1e-6) <= named <= limit * (1.0 + loose)
 
 
+@pytest.mark.parametrize("formulation", [None, "incompatible"])
+@pytest.mark.parametrize("warm", [-1e-3, 1e-3])
+def test_thermal_stresses_are_no_loads_of_a_limit(warm, formulation):
+    """They balance each other: in plane stress flow changes areas, on which thermal forces do work all the same."""
+    model = bar(LAW, 250.0, lambda points: warm / 1e-5 * points[:, 0], formulation=formulation)
+    (body,) = model.bodies
+    steel = replace(body.material, expansion=1e-5, plastic=sg.Plastic(235.0))
+    history = sg.solve(replace(model, bodies=[replace(body, material=steel)]), raise_on_failure=False)
+    assert history.status == "no_equilibrium"
+    named = float(history.message.split("flow plastically at ")[1].split("%")[0]) / 100.0
+    assert 0.94 * (1.0 - 1e-6) <= named <= 0.94 * 1.001
+
+
 def test_what_a_table_of_temperatures_cannot_be():
     for rows, words in (
         ([(0.0, 2.0, 20.0), (0.0, 1.0, 10.0)], "yield_stress[1][2]: is 10 after 20; expected increasing temperatures"),

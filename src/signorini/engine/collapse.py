@@ -87,7 +87,7 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
     if dilatation > _MAX_DILATATION * float(bodies.weights @ strain):
         return None
     parts, taken = _taken(bodies, np.sqrt(2.0 / 3.0) * bodies.weights * strain, *heat)
-    before, after = (float(applied(prepared, point)[0] @ v) for point in (start, end))
+    before, after = (_power(prepared, point, v) for point in (start, end))
     rubs = False
     if len(prepared.interface):
         moved = prepared.interface.motion(v)
@@ -104,6 +104,13 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
         return None
     motion = v[: prepared.model.dimension * len(prepared.model.mesh.points)].reshape(-1, prepared.model.dimension)
     return Collapse(part=part, motion=frozen(motion / (np.abs(motion).max() or 1.0)), rubs=rubs)
+
+
+def _power(prepared: Prepared, point: LoadPoint, v: Array) -> float:
+    """What loads do on a motion (dofs,); thermal forces are the bodies' own, whose stresses are in what flow takes."""
+    warm = [load.label for load in prepared.model.loads if load.temperature is not None]
+    loads = applied(prepared, point)[0] - sum((point.factors[name] * prepared.loads[name] for name in warm), 0.0)
+    return float((loads + prepared.interface.on_bodies(point.given)) @ v)
 
 
 def _taken(bodies: YieldingBodies, flow: Array, cold: Heat, warm: Heat) -> tuple[Array, Array]:
