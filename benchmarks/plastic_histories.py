@@ -4,6 +4,7 @@
     python -m benchmarks.plastic_histories                          # 100 models, all kinds
     python -m benchmarks.plastic_histories 1000 --seed 17           # any number, any seed
     python -m benchmarks.plastic_histories 100 --kinds space mortar # those in space, of meshes that do not match
+    python -m benchmarks.plastic_histories 400 --in-turn --kept F   # every kind in its turn; goes on where it stopped
     python -m benchmarks.plastic_histories --only 4711              # one model, with all its numbers
     python -m benchmarks.plastic_histories 20 --solve               # the slow solver beside every increment too
     python -m benchmarks.plastic_histories 20 --refine              # and in tiny increments, to which few must tend

@@ -25,6 +25,10 @@ STEPS = ("auto", "iterated", "restart", "units", "turned")
 KINDS = (*GEOMETRIES, *FLAT, *SOLID, *LAWS, *BODIES, *ACTIONS, *STEPS)
 _MORE = ("incompatible", "elastic", "rigid", "tied", "round", "moving", "heated", "softened", "overlap", *STEPS)
 _SHARE = 0.15  # of models that have one of them
+_TWO_BODIES = ("two", "mortar", "curved", "elastic", "rigid", "tied")
+_WITHOUT = {"moving": _TWO_BODIES, "round": _TWO_BODIES, "overlap": ("tied",), "elastic": ("rigid",)}
+"""What is left to chance but does not go with a kind that is wanted."""
+
 _FORMULATIONS = {"incompatible": "incompatible", "wedge15": "standard"}
 E, NU, EXPANSION = 200.0, 0.3, 1e-3
 
@@ -67,13 +71,17 @@ def chosen(rng: np.random.Generator, wanted: frozenset[str]) -> frozenset[str]:
     geometry = one_of(GEOMETRIES, (0.4, 0.25, 0.15, 0.2))
     if wanted & set(SOLID):
         geometry = "space"
+    elif geometry == "space" and wanted & {*FLAT, "curved"}:
+        geometry = GEOMETRIES[0]
     law = one_of(LAWS, (0.3, 0.2, 0.1, 0.2, 0.2))
     families = SOLID if geometry == "space" else FLAT
     family = str(rng.choice(families, p=[0.5, *[0.5 / (len(families) - 1)] * (len(families) - 1)]))
     family = families[0] if "incompatible" in wanted else family
     family = next((asked for asked in families if asked in wanted), family)
     found = {kind for kind in ("two", "mortar", "curved", "driven") if rng.random() < 0.5}
-    found |= {kind for kind in _MORE if rng.random() < _SHARE} | wanted
+    found |= {kind for kind in _MORE if rng.random() < _SHARE}
+    found -= {other for kind in wanted for other in _WITHOUT.get(kind, ())} - wanted
+    found |= wanted | ({"two"} if "curved" in wanted else set())
     found = found - {*GEOMETRIES, *LAWS, *FLAT, *SOLID} | {geometry, law, family}
     return consistent(found)
 

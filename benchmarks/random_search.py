@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import argparse
+import json
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
 
 from benchmarks import command, page
 
@@ -48,6 +50,10 @@ def parser(words: str | None, kinds: Sequence[str], models: int) -> argparse.Arg
     made.add_argument("models", type=int, nargs="?", default=models)
     made.add_argument("--seed", type=int, default=0, help="of the first model; the others follow")
     made.add_argument("--kinds", nargs="*", default=[], choices=kinds, help="what is in every model")
+    made.add_argument(
+        "--in-turn", action="store_true", help="in every model the next one of them, of all if none is named"
+    )
+    made.add_argument("--kept", type=Path, help="file of verdicts: models that were right there are not judged again")
     made.add_argument("--only", type=int, help="the one model of this seed")
     return made
 
@@ -77,6 +83,18 @@ class Tally:
         return page.table(["models with", *names, "worst"], rows)
 
 
+def _kept(path: Path | None) -> dict[tuple[int, frozenset[str]], tuple[Collection[str], Verdict]]:
+    """Kinds and verdicts of models that did not fail, by seed and kinds that were wanted; a later line counts."""
+    found: dict[tuple[int, frozenset[str]], tuple[Collection[str], Verdict]] = {}
+    if path is None or not path.exists():
+        return found
+    for line in map(json.loads, path.read_text(encoding="utf-8").splitlines()):
+        verdict = Verdict(**line["verdict"])
+        if not verdict.failed:
+            found[line["seed"], frozenset(line["wanted"])] = line["kinds"], verdict
+    return found
+
+
 def search(options: argparse.Namespace, kinds: Sequence[str], judge: Judge, name: str) -> None:
     """Judge the models that the options ask for, or until Ctrl-C; print failures and the table.
 
@@ -88,10 +106,16 @@ def search(options: argparse.Namespace, kinds: Sequence[str], judge: Judge, name
     name : of the place in a document for the table
     """
     seeds = [options.only] if options.only is not None else range(options.seed, options.seed + options.models)
-    tally, done = Tally(kinds), 0
+    tally, done, named = Tally(kinds), 0, options.kinds or kinds
+    before = _kept(options.kept)
     try:
         for seed in seeds:
-            found, verdict = judge(seed, frozenset(options.kinds))
+            wanted = frozenset([named[seed % len(named)]] if options.in_turn else options.kinds)
+            found, verdict = before.get((seed, wanted)) or judge(seed, wanted)
+            if options.kept and (seed, wanted) not in before:
+                line = {"seed": seed, "wanted": sorted(wanted), "kinds": sorted(found), "verdict": asdict(verdict)}
+                with options.kept.open("a", encoding="utf-8") as file:
+                    print(json.dumps(line), file=file)
             tally.count(found, verdict)
             done += 1
             if verdict.failed or options.only is not None:
@@ -99,7 +123,8 @@ def search(options: argparse.Namespace, kinds: Sequence[str], judge: Judge, name
     except KeyboardInterrupt:  # what is done counts
         if not done:
             raise
-    text = f"{tally.table()}\n\n{done} models, seeds {seeds[0]} to {seeds[done - 1]}."
+    turn = ", in every model the next of these kinds and others by chance" if options.in_turn else ""
+    text = f"{tally.table()}\n\n{done} models, seeds {seeds[0]} to {seeds[done - 1]}{turn}."
     print(f"\n{text}")
     if options.write:
         page.write(name, text, options.write)

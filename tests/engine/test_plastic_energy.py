@@ -21,19 +21,23 @@ def cycled(law, kind="plane strain", *, thermal=False, cells="quad8", **parts):
     reverse = [{"edge": 1.0}, {"edge": 0.2}, {"edge": -1.0}, {"edge": 0.0}]
     heats = {"heat": 1.0} if thermal else {}
     return sg.Model(
-        sg.rectangle(x=np.linspace(1, 2, 4), y=np.linspace(0, 1, 4), cells=cells),
+        sg.rectangle(x=[1, 1.4, 2], y=[0, 0.5, 1], cells=cells),
         kind=kind,
         bodies=[sg.Body("block", material, **parts)],
         supports=[sg.Support("bottom", u=(0, 0)), sg.Support("top", u=(0.02, 0.03), name="edge")],
         loads=loads,
-        steps=[sg.Step(scale=scale | (heats if i == 1 else {}), increments=5) for i, scale in enumerate(reverse)],
+        steps=[sg.Step(scale=scale | (heats if i == 1 else {}), increments=2) for i, scale in enumerate(reverse)],
     )
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["plane strain", "axisymmetric", "plane stress"])
-@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+@pytest.mark.parametrize(
+    ("law", "kind"),
+    [*((law, "plane strain") for law in LAWS), ("combined", "axisymmetric"), ("perfect", "plane stress")]
+    + [("combined", "plane stress")],
+)
 def test_energies_of_a_body_balance(law, kind):
+    law = LAWS[law]
     solution = sg.solve(cycled(law, kind))
     work = sum(abs(step.work) for step in solution.steps)
     assert solution.steps[0].yielding.first is not None

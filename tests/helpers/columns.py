@@ -31,7 +31,7 @@ def column(
     *,
     lower: sg.Elastic = SOFT,
     upper: sg.Elastic = SOFT,
-    cells: tuple[int, int] = (2, 3),
+    cells: tuple[int, int] | None = None,
     friction: float | str = 0.0,
     supports: tuple[sg.Support, ...] = (),
     **given: object,
@@ -42,12 +42,12 @@ def column(
     ----------
     kind : of the model; in space two planes of symmetry hold the blocks, in the plane one
     lower, upper : materials
-    cells : along an edge of the upper and the lower one
+    cells : along an edge of the upper and the lower one; (2, 3), in space (1, 2)
     friction : of their contact "interface"
     supports : beyond those of symmetry and the bottom
     given : other fields of the model; without loads or obstacles the load "press" is on the top
     """
-    up, low = (np.linspace(0.0, 1.0, n + 1) for n in cells)
+    up, low = (np.linspace(0.0, 1.0, n + 1) for n in cells or ((1, 2) if kind == "3d" else (2, 3)))
     if kind == "3d":
         mesh = sg.join({"up": sg.box(x=up, y=up, z=1.0 + up), "low": sg.box(x=low, y=low, z=low)})
         held = [sg.Support("low.bottom", u=(None, None, 0.0), name="floor")]

@@ -60,7 +60,7 @@ def test_four_times_beyond_the_yield_stress(given, monkeypatch):
 
 def test_factors_are_made_by_operations_and_not_by_the_clock():
     """A clock that runs wild changes neither the rounds nor the tangents; a new one is dearer the more it takes."""
-    model, rng = pressed(4.0, block=2), np.random.default_rng(0)
+    model, rng = pressed(4.0, n=1, block=1), np.random.default_rng(0)
     found = []
     for timer in (time.perf_counter, lambda: float(rng.exponential(1e3))):
         prepared = prepare(model, clock=Clock(timer=timer))
@@ -76,11 +76,11 @@ def test_factors_are_made_by_operations_and_not_by_the_clock():
 
 def test_first_yield_is_found_where_contact_grows():
     """Pressures grow with the cube root of the load, so that no straight line between increments leads there."""
-    solution = sg.solve(pressed(2.5))
+    solution = sg.solve(pressed(2.5, n=1))
     step = solution.steps[0]
     assert step.certificate.plastic.excess < 1e-8  # of the elastic part too
     (found,) = (re.search(r"at ([\d.]+)%: first yield", note) for note in step.notes if "first yield" in note)
     factor = float(found[1]) / 100.0
     for part, yields in ((factor * (1.0 - 1e-4), False), (factor * (1.0 + 1e-4), True)):
-        notes = sg.solve(pressed(2.5, step=sg.Step(scale={"press": part}, increments=1))).steps[0].notes
+        notes = sg.solve(pressed(2.5, n=1, step=sg.Step(scale={"press": part}, increments=1))).steps[0].notes
         assert any("first yield" in note for note in notes) == yields

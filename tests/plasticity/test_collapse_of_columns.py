@@ -15,12 +15,13 @@ PERFECT = replace(ELASTIC, plastic=sg.Plastic(Y))
 def overloaded(kind, factor):
     """The column under its limit load times a factor."""
     loads = [sg.Load("up.top", pressure=factor * Y, name="press")]
-    return column(kind, upper=PERFECT, lower=PERFECT, loads=loads)
+    return column(kind, upper=PERFECT, lower=PERFECT, loads=loads, cells=(1, 2))
 
 
-@pytest.mark.parametrize("backend", ["auto", pytest.param("iterative", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("kind", ["axisymmetric", "3d"])
-@pytest.mark.parametrize("factor", [1.02, 2.0])
+@pytest.mark.parametrize(
+    ("factor", "backend"), [(1.02, "auto"), (2.0, "auto"), pytest.param(1.02, "iterative", marks=pytest.mark.slow)]
+)
 def test_the_limit_load_is_found_in_a_dozen_tangents(kind, backend, factor, monkeypatch):
     """Contact finds no answer on the singular tangent: what is left of the elastic law lets bodies flow far at once."""
     made = []

@@ -365,18 +365,18 @@ def test_a_slab_in_plane_strain_is_the_same_in_space(family):
     assert deep.end.state.plastic.dissipation == pytest.approx(0.5 * flat.end.state.plastic.dissipation, rel=bound)
 
 
-@KINDS
 @pytest.mark.parametrize(
-    "given",
+    ("kind", "given"),
     [
-        {},
-        {"friction": 0.3},
-        {"friction": "tied"},
-        {"lower": ELASTIC},
-        {"foundations": [sg.Foundation("low.bottom", normal_stiffness=50.0)]},
-        {"steps": [sg.Step(increments=2), sg.Step(scale={"press": 0.3}, increments=1)]},
+        ("axisymmetric", {}),
+        ("axisymmetric", {"friction": 0.3}),
+        ("3d", {"friction": 0.3}),
+        ("3d", {"friction": "tied"}),
+        ("axisymmetric", {"lower": ELASTIC}),
+        ("3d", {"foundations": [sg.Foundation("low.bottom", normal_stiffness=50.0)]}),
+        ("3d", {"steps": [sg.Step(increments=2), sg.Step(scale={"press": 0.3}, increments=1)]}),
     ],
-    ids=["alone", "friction", "tied", "elastic", "springs", "unloaded"],
+    ids=["alone", "friction", "friction in space", "tied", "elastic", "springs", "unloaded"],
 )
 def test_iterated_bodies_answer_as_condensed_ones(kind, given):
     """Contact by multipliers, bodies by multigrid, a new hierarchy for every tangent."""

@@ -17,9 +17,23 @@ from benchmarks.independent_history import Acts, Follower
 from benchmarks.plastic_models import in_words, make
 
 
-@pytest.mark.parametrize("seed", [1, 5, 11, 12, 13, 14, 17, 24])
-def test_answers_obey_the_laws(seed):
-    case = make(seed)
+@pytest.mark.parametrize(
+    ("seed", "kinds"),
+    [
+        (3, "softened table mortar"),
+        (0, "quad9 frederick"),
+        (2, "hexahedron27 combined"),
+        (5, "wedge15 prager mortar units"),
+        (6, "iterated auto rigid"),
+        (8, "tied axisymmetric"),
+        (9, "round moving space"),
+        (7, "incompatible softened plane-stress"),
+        (4, "overlap restart turned"),
+        (1, "iterated space incompatible"),
+    ],
+)
+def test_answers_obey_the_laws(seed, kinds):
+    case = make(seed, frozenset(word.replace("-", " ") for word in kinds.split()))
     verdict = histories.judge(case)
     assert verdict.outcome == "right", (sorted(case.kinds), verdict)
 

@@ -107,7 +107,7 @@ COLD, STEEP = sg.Step(scale={"pull": 1.0, "heat": 0.0}), sg.Step(scale={"pull": 
         (240.0, -100.0, [STEEP], 235.0 / 240.0),  # colder than its tables
     ],
 )
-@KINDS
+@pytest.mark.parametrize(("kind", "formulation"), [("plane stress", "incompatible"), ("space", None)])
 def test_collapse_on_the_way_to_another_temperature_is_named_where_it_is(
     kind, formulation, stress, temperature, steps, limit
 ):
@@ -137,6 +137,11 @@ def test_what_a_table_of_temperatures_cannot_be():
         ([(0.0, 2.0, 20.0), (0.0, 1.0, 10.0)], "yield_stress[1][2]: is 10 after 20; expected increasing temperatures"),
         ([(0.0, 2.0, 20.0), (0.1, 1.0, 30.0)], "yield_stress[1][0]: is 0.1; expected 0, the plastic strain at first"),
         ([(0.0, 2.0, 20.0), (0.0, 0.0, 30.0)], "yield_stress[1][1]: is 0.0; expected a number > 0"),
+        (
+            [(0.0, 2.0, 0.0), (0.1, 3.0, 0.0), (0.0, 2.2, 9.0), (0.1, 2.5, 9.0)],
+            "yield_stress[3][1]: is 2.5: the curve of temperature 9 crosses that of 0 before a plastic strain of 0.1",
+        ),
+        ([(0.0, 2.0, 20.0), (0.1, 2.0)], "yield_stress: holds what is no number; expected rows of 3 numbers"),
         ([(0.0, 2.0, 20.0), (0.1, 1.0, 20.0)], "yield_stress[1][1]: is 1 after 2: the material softens"),
     ):
         with pytest.raises(sg.InputError) as caught:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -26,7 +27,8 @@ class Plastic:
     ----------
     yield_stress : Y in uniaxial tension, force per area, > 0: a number, or rows (p, Y), linear in between: the first p
         is 0, p increases, Y does not decrease. Rows (p, Y, T) depend on temperature, that of loads, above the one
-        without strain: such rows for every T, one T after the other, linear in between, constant below and above
+        without strain: such rows for every T, one T after the other, linear in between, constant below and above;
+        the curves of neighbouring T do not cross
     hardening : slope of Y beyond the last row of any temperature, force per area, >= 0
     backstresses : rows (C, gamma): C force per area, > 0, and gamma >= 0 without unit
 
@@ -135,9 +137,10 @@ class Plastic:
 def _yield_stress(given: Any) -> tuple[tuple[float, ...], ...]:
     """Rows (p, Y) or (p, Y, T) that do not soften."""
     where: Where = ("yield_stress",)
-    if not np.ndim(given):
+    if isinstance(given, str) or not np.iterable(given):
         return ((0.0, number(given, where, above=0.0)),)
-    table = rows(given, where, size=3 if np.ndim(given) == 2 and np.shape(given)[1] == 3 else 2).tolist()
+    warm = any(np.iterable(row) and len(row) == 3 for row in given)
+    table = rows(given, where, size=3 if warm else 2).tolist()
     if not table:
         raise InputError("is empty; expected a number, or rows of plastic strain and yield stress", where=where)
     for i, row in enumerate(table):
@@ -161,4 +164,30 @@ def _yield_stress(given: Any) -> tuple[tuple[float, ...], ...]:
                 f"is {row[1]:g} after {before[1]:g}: the material softens; expected stresses that do not decrease",
                 where=(*where, i, 1),
             )
+    if warm:
+        _check_apart(np.array(table), where)
     return tuple(tuple(row) for row in table)
+
+
+def _check_apart(table: Array, where: Where) -> None:
+    """Refuse curves (p, Y) of two temperatures that cross: one of them is wrong, or belongs to the other temperature.
+
+    Parameters
+    ----------
+    table : (n, 3) rows (p, Y, T), in order
+    where : path of the table
+    """
+    starts = np.flatnonzero(np.diff(table[:, 2], prepend=-np.inf))
+    curves = np.split(table, starts[1:])
+    for (low, high), start in zip(pairwise(curves), starts[1:], strict=True):
+        strain = np.unique(np.concatenate([low[:, 0], high[:, 0]]))
+        apart = np.interp(strain, *high[:, :2].T) - np.interp(strain, *low[:, :2].T)
+        (sides,) = np.nonzero(apart)
+        crossed = sides[np.sign(apart[sides]) != np.sign(apart[sides[:1]])]
+        if len(crossed):
+            row = start + min(int(np.searchsorted(high[:, 0], strain[crossed[0]])), len(high) - 1)
+            raise InputError(
+                f"is {table[row, 1]:g}: the curve of temperature {high[0, 2]:g} crosses that of {low[0, 2]:g} before a "
+                f"plastic strain of {strain[crossed[0]]:g}; expected one above the other",
+                where=(*where, int(row), 1),
+            )

@@ -117,6 +117,11 @@ WRONG = {  # the law, how the line that is named begins, what is said
         ".01",
         "the temperature is 10 after 20; expected increasing temperatures, the rows of each together",
     ),
+    "crosses": (
+        "*PLASTIC\n.02,0.,20.\n.03,.1,20.\n.022,0.,90.\n.025,.1,90.\n",
+        ".025",
+        "the yield stress is 0.025: the curve of temperature 90 crosses that of 20 before a plastic strain of 0.1",
+    ),
     "warm from a strain on": ("*PLASTIC\n.02,0.,20.\n.01,0.1,30.\n", ".01", "the plastic strain is 0.1; expected 0"),
     "warm and kinematic": (
         "*PLASTIC,HARDENING=KINEMATIC\n.02,0.,20.\n.01,0.,100.\n",
