@@ -187,6 +187,8 @@ def _cut(case: Case, whole: Any) -> str:
             return f"cut behind step {cut}: displacements of step {cut + k + 1} differ by {off:.1e}"
         if [one.work, one.strain_energy, one.dissipation] != [two.work, two.strain_energy, two.dissipation]:
             return f"cut behind step {cut}: energies of step {cut + k + 1} differ"
+    if after.end is None:  # the whole history ends where it was cut
+        return ""
     state, other = whole.end.state.plastic, after.end.state.plastic
     if not (np.array_equal(state.strain, other.strain) and np.array_equal(state.equivalent, other.equivalent)):
         return f"cut behind step {cut}: plastic strains at the end differ"
