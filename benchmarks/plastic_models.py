@@ -29,7 +29,6 @@ _TWO_BODIES = ("two", "mortar", "curved", "elastic", "rigid", "tied")
 _WITHOUT = {"moving": _TWO_BODIES, "round": _TWO_BODIES, "overlap": ("tied",), "elastic": ("rigid",)}
 """What is left to chance but does not go with a kind that is wanted."""
 
-_FORMULATIONS = {"incompatible": "incompatible", "wedge15": "standard"}
 E, NU, EXPANSION = 200.0, 0.3, 1e-3
 
 
@@ -301,7 +300,7 @@ def make(seed: int, wanted: frozenset[str] = frozenset(), *, exactly: bool = Fal
         kind="3d" if d == 3 else geometry,
         thickness=thickness,
         bodies=[
-            sg.Body(name, material, next((word for kind, word in _FORMULATIONS.items() if kind in kinds), None))
+            sg.Body(name, material, "incompatible" if "incompatible" in kinds else None)
             for name, material in zip(made.names, (upper, lower), strict=False)
         ],
         supports=made.supports,
@@ -394,7 +393,8 @@ def _formulation(model: sg.Model, b: int) -> str:
     body = model.bodies[b]
     if body.formulation is not None:
         return str(body.formulation)
-    return "mean dilatation" if body.material.yields and model.kind != "plane stress" else "standard"
+    locks = body.material.yields and model.kind != "plane stress" and "wedge15" not in model.mesh.cells
+    return "mean dilatation" if locks else "standard"
 
 
 def in_words(

@@ -43,7 +43,7 @@ def meshes():
         yield pytest.param(box(x=line, y=[0, 0.4, 1], z=[0, 1], cells=cells), {}, id=cells)
     wedges = extruded(rectangle(x=line, y=[0, 1], cells="triangle6"), z=[-1, 0], ends=("back", "front"))
     z_up = wedges.points[:, [0, 2, 1]] * [1, -1, 1]  # the layers along y, the front at 0
-    yield pytest.param(replace(wedges, points=z_up), {"formulation": "standard"}, id="wedge15")
+    yield pytest.param(replace(wedges, points=z_up), {}, id="wedge15")
 
 
 @pytest.mark.parametrize(("mesh", "parts"), [*meshes()])

@@ -88,7 +88,7 @@ def _lines(model: Model, mesh: str) -> Iterator[str]:
             given = _given(member)
             if key == "body":
                 given["material"] = materials[member.material]
-                if member == replace(member, formulation=None).in_kind(model.kind):
+                if member == replace(member, formulation=None).in_kind(model.kind, model.mesh.families(member.name)):
                     del given["formulation"]
             yield from ("", f"[[{key}]]", *_entries(given))
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
@@ -80,15 +80,21 @@ class Body:
         if self.thickness is not None:
             object.__setattr__(self, "thickness", number(self.thickness, ("thickness",), above=0.0))
 
-    def in_kind(self, kind: str) -> Body:
+    def in_kind(self, kind: str, families: Collection[str] = ()) -> Body:
         """The body with the formulation that it has in a kind of model.
 
         Flow keeps the volume, so that a body that yields has a mean dilatation where none is named; in plane stress its
-        thickness gives way, and it is standard.
+        thickness gives way, and it is standard, as are quadratic wedges, which have no mean dilatation and do not lock.
+
+        Parameters
+        ----------
+        kind : of the model
+        families : of the cells of the body
         """
         if self.formulation is not None:
             return self
-        return replace(self, formulation="standard" if kind == "plane stress" else "mean dilatation")
+        standard = kind == "plane stress" or "wedge15" in families
+        return replace(self, formulation="standard" if standard else "mean dilatation")
 
     def check_flow(self, where: Where, kind: str, families: Mapping[str, int]) -> None:
         """Refuse what a body that yields cannot be.
