@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sized
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -139,7 +140,7 @@ def _yield_stress(given: Any) -> tuple[tuple[float, ...], ...]:
     where: Where = ("yield_stress",)
     if isinstance(given, str) or not np.iterable(given):
         return ((0.0, number(given, where, above=0.0)),)
-    warm = any(np.iterable(row) and len(row) == 3 for row in given)
+    warm = any(isinstance(row, Sized) and len(row) == 3 for row in given)
     table = rows(given, where, size=3 if warm else 2).tolist()
     if not table:
         raise InputError("is empty; expected a number, or rows of plastic strain and yield stress", where=where)
