@@ -6,6 +6,7 @@ import pytest
 
 import signorini as sg
 from signorini.engine.cycles import judge
+from signorini.gallery.yielding import rolled_half_plane
 from signorini.solution.results import Cycle
 
 E, Y = 200.0, 1.0
@@ -82,3 +83,14 @@ def test_a_drift_that_still_falls_is_no_ratchet():
     verdict, words = judge(cycles, None)
     assert verdict == "not yet"
     assert words.endswith("plastic strain grows by 1.74e-05 in the last, 0.879 times as much as in the one before")
+
+
+@pytest.mark.slow
+def test_flow_under_a_rolling_cylinder_dies_out_below_the_shakedown_limit_alone():
+    """Of ``4 k``; first yield is at 3.1 k."""
+    below, above = (sg.solve(rolled_half_plane(4.0 * part, n=2, passes=5)).last for part in (0.8, 1.1))
+    assert "flow dies out, bodies tend to shake down" in below.notes[-1]
+    assert below.cycles[-1].flow < 1e-5 * below.cycles[0].flow
+    assert not any("dies out" in note for note in above.notes)
+    flows = [cycle.flow for cycle in above.cycles]
+    assert flows[-1] == pytest.approx(flows[-2], rel=0.01)

@@ -114,3 +114,9 @@ def test_plastic_work_is_the_area_below_the_curve(law, H):
     plastic = solution.end.state.plastic
     p = plastic.equivalent[0]
     assert plastic.dissipation == pytest.approx(p + 0.5 * H * p**2, rel=1e-8)
+
+
+@pytest.mark.parametrize(("along", "told"), [(0.04, False), (0.07, True)])
+def test_a_note_says_where_strains_are_no_longer_small(along, told):
+    notes = sg.solve(pulled("axisymmetric", LAWS["linear"], along=along, steps=ONCE)).last.notes
+    assert any("its law is one of small strains, which holds to about 5%" in note for note in notes) == told

@@ -216,9 +216,9 @@ class Mesh:
         return np.unique(np.concatenate([part.ravel() for part in found]))
 
     def families(self, body: str) -> dict[str, int]:
-        """Families of the cells of a body, and how many there are of each."""
+        """Families of the cells of a body, and how many there are of each; empty where there is no such body."""
         ends = np.cumsum([len(nodes) for nodes in self.cells.values()])
-        counts = np.bincount(np.searchsorted(ends, self.bodies[body], side="right"), minlength=len(ends))
+        counts = np.bincount(np.searchsorted(ends, self.bodies.get(body, ()), side="right"), minlength=len(ends))
         return {family: int(count) for family, count in zip(self.cells, counts, strict=True) if count}
 
     def bounds_nothing(self, name: str) -> bool:

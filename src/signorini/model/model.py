@@ -97,9 +97,8 @@ class Model(Short):
         kinds |= {"obstacles": Rigid, "equations": Equation, "rigid_bodies": RigidBody, "bolts": Bolt, "steps": Step}
         for part, kind in kinds.items():
             object.__setattr__(self, part, members(getattr(self, part), kind, part))
-        cells = {name: self.mesh.families(name) for name in self.mesh.bodies}
-        bodies = tuple(body.in_kind(self.kind, cells.get(body.name, ())) for body in self.bodies)
-        object.__setattr__(self, "bodies", bodies)
+        bodies = (body.in_kind(self.kind, self.mesh.families(body.name)) for body in self.bodies)
+        object.__setattr__(self, "bodies", tuple(bodies))
         self._check_bodies()
         self._check_links()
         for i, support in enumerate(self.supports):
