@@ -130,6 +130,11 @@ class Space:
         moved.__dict__["facets"] = self.facets
         return moved
 
+    @property
+    def undeformed(self) -> Array:
+        """(nodes, d) Places of the nodes before anything moved them."""
+        return self.mesh.points - self.at_nodes(self.displacement) if len(self.displacement) else self.mesh.points
+
     def spins(self, rows: sp.csr_array) -> sp.csr_array:
         """(k, 1 or 3) What rows (k, dofs) see of rotations of all nodes about the origin, by one radian each."""
         x = self.mesh.points

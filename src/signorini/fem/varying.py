@@ -13,7 +13,7 @@ from signorini.model.varying import ArcLength, NodeValues, Varying
 
 
 def at_nodes(given: Varying, space: Space, nodes: IntArray, where: Where, side: Boundary | None = None) -> Array:
-    """Values at nodes, (k,).
+    """Values at nodes, (k,); those of functions of the place go along with nodes that have moved.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def at_nodes(given: Varying, space: Space, nodes: IntArray, where: Where, side: 
     elif isinstance(given, ArcLength):
         found = given.on(_arc_lengths(given, space, nodes, side, where))
     else:
-        found = _evaluated(given, space.mesh.points[nodes], (len(nodes),), where)
+        found = _evaluated(given, space.undeformed[nodes], (len(nodes),), where)
     return found
 
 

@@ -153,8 +153,6 @@ class Contact:
         if self.coupling in ("nodes", "node-to-segment"):
             words = f"{finite} coupling is '{self.coupling}'; expected 'mortar', or 'auto', which is mortar here"
             raise InputError(words, where=("sliding",))
-        if self.friction_axis is not None:
-            raise InputError(f"{finite} friction has an axis, which would have to follow the sides", where=("sliding",))
 
     def _check_law(self) -> None:
         """What a law of friction says of itself, and what goes with it."""
