@@ -33,7 +33,7 @@ def test_pairs_too_far_apart_change_nothing(friction, force):
 def test_a_pair_left_out_that_meets_the_other_side_is_noticed(monkeypatch):
     """With a reach far too short the first pass penetrates; the second one, with all pairs, does not."""
     right = sg.solve(zhu_cylinder(refine=4))
-    monkeypatch.setattr("signorini.interface.reach._REACH", 0.3)
+    monkeypatch.setattr("signorini.engine.candidate_pairs._REACH", 0.3)
     prepared = prepare(zhu_cylinder(refine=4))
     assert prepared.paths.condensed.active.sum() < right.contact("foundation").closed.sum()
     found = solve_prepared(prepared)
