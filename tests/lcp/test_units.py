@@ -163,3 +163,11 @@ def test_rounding_where_nothing_is_left_is_no_violation():
     solution = lcp.solve(M, q)
     assert solution.chain[-1].startswith("multigrid: SOLVED")
     np.testing.assert_allclose(solution.z[7], (1.0 - (2.0 - 3.0**0.5) ** 16) / 12.0**0.5, rtol=1e-9)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("unit", [1e-310, 1e-290, 1e290])
+def test_numbers_at_the_ends_of_the_range_are_numbers(unit):
+    """Whose reciprocals overflow, and whose squares do."""
+    found = lcp.solve(unit * np.array([[2.0, 1.0], [1.0, 2.0]]), unit * np.array([-5.0, -6.0]))
+    np.testing.assert_allclose(found.z, [4.0 / 3.0, 7.0 / 3.0], rtol=1e-9)

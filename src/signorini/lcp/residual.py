@@ -37,6 +37,9 @@ EXCUSE = 1e-5
 LARGEST_GROWTH = 1e2
 """Of the largest of the data in its part: the size beyond which the terms of a row excuse no error any more."""
 
+LEAST_SIZE = 2.0**-1000
+"""Of a row or column that anything is divided by: smaller numbers have lost digits, and quotients overflow."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Residual:
@@ -239,7 +242,7 @@ def _largest(violation: Array) -> float:
 
 def _or_one(size: Array) -> Array:
     """Sizes to divide by: where nothing is there, nothing can be violated."""
-    return np.where(size > 0, size, 1.0)
+    return np.where(size > 0, np.maximum(size, LEAST_SIZE), 1.0)
 
 
 COUPLING = 1e-10  # balanced entries below it tie no rows together: the rounding they carry is below all tolerances

@@ -16,6 +16,7 @@ from scipy.linalg.blas import dgemm
 
 from signorini.arrays import Array, IntArray
 from signorini.lcp.delayed import DelayedTableau, Tolerances
+from signorini.lcp.residual import LEAST_SIZE
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +76,7 @@ def _power_of_two(values: Array) -> Array:
 
 def _to_one(size: float) -> float:
     """The power of two that brings a size near 1."""
-    return 2.0 ** round(math.log2(1.0 / size)) if size > 0 else 1.0
+    return 2.0 ** round(math.log2(1.0 / max(size, LEAST_SIZE))) if size > 0 else 1.0
 
 
 MAX_DELAYED = 32
