@@ -42,7 +42,6 @@ _YIELD_ROUNDS = 30  # of regula falsi: a few where contact grows, as pressures d
 _NEAR_YIELD = 1e-6  # of the yield stress: how near it the fullest point is where first yield is found
 _INSIDE = 1e-3  # of the bracket: how near its ends the next try may be
 _LINE, _POINT = 2.0, 3.0  # powers of the stress that the loads of Hertz's contacts grow with
-_UNSTRESSED = 1e-3  # of the yield stress: what a point has where only the load stresses it
 _AHEAD = 1.5  # times the load at which Hertz's line contact yields: so far ahead first yield is looked for
 _MOST_AHEAD = 0.5  # of a part: where that is more, all of it
 
@@ -100,9 +99,6 @@ def elastic_part(
             return _below_yield(prepared, joined(behind), ELASTIC), None
         part = part.rest(ahead, followed.after)
     exactly = None if followed is None or lost is not None else followed.until
-    bracket = found.bracket
-    if exactly is None and bracket.below <= _UNSTRESSED - 1.0:
-        found = found._replace(factor=bracket.high / (1.0 + bracket.above) ** _hertz(prepared))
 
     def again(cut: StepPart, factor: float) -> FollowedPart:
         return elastically(_frozen(cut)) if exactly is None else exactly(factor)
@@ -135,14 +131,13 @@ def _up_to_yield(
 ) -> tuple[StepPart, FollowedPart] | None:
     """The part up to where its first point yields, and how it was followed; None where that is at its beginning.
 
-    On a straight piece of an exact path the first try is it; between increments stresses grow with a power of the load
-    as contact does, and where that law no longer halves what is lacking regula falsi goes on, from the side that does
-    not yield.
+    On a straight way the first try is it; else stresses grow with a power of the load as contact does, and where that
+    law no longer halves what is lacking regula falsi goes on, from the side that does not yield.
     """
     bracket, factor = found
     last = bracket.high, bracket.above
     best: tuple[StepPart, FollowedPart] | None = None
-    for _ in range(_YIELD_ROUNDS):
+    for tried in range(_YIELD_ROUNDS):
         if factor <= AT_ONCE:
             break
         cut = part.cut(factor, "event")
@@ -154,7 +149,8 @@ def _up_to_yield(
                 break
         bracket = narrowed(bracket, factor, excess, excess > _YIELD_TOL)
         aim = -0.5 * _NEAR_YIELD
-        guess = _by_power(last, (factor, excess), aim) if abs(excess) < 0.5 * abs(last[1]) else None
+        grows = not tried or abs(excess) < 0.5 * abs(last[1])
+        guess = _by_power(last, (factor, excess), aim) if grows else None
         last = factor, excess
         factor = secant(bracket, aim, _INSIDE)
         if guess is not None and bracket.low < guess < bracket.high:
