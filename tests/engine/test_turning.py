@@ -88,11 +88,11 @@ def test_a_press_fit_that_turns_keeps_what_it_bears() -> None:
 
 def test_a_meshed_ring_rolls() -> None:
     """Without slip: as far as its facets are long; all of it at an angle to the axes does the same to rounding."""
-    found = {degrees: sg.solve(roller(degrees)) for degrees in (0.0, 30.0, 90.0)}
+    found = {degrees: sg.solve(roller(degrees, angle=-0.02)) for degrees in (0.0, 30.0, 90.0)}
     roll = found[0.0].steps[-1]
     hub, contact = roll.rigid_bodies["hub"], roll.contacts[0]
     perimeter = sin(pi / 48) / (pi / 48)
-    assert hub.displacement[0] == pytest.approx(0.05 * 2.0 * perimeter, rel=3e-3)
+    assert hub.displacement[0] == pytest.approx(0.02 * 2.0 * perimeter, rel=5e-3)  # a part of a facet
     assert contact.forces.sum(axis=0) == pytest.approx([0.0, 1.0], abs=1e-9)
     assert (contact.status != "slip").all()
     assert roll.certificate.passed
@@ -136,7 +136,7 @@ def test_a_hub_in_space_bears_what_contact_and_loads_leave() -> None:
 
 def test_a_roll_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
     """What its frame is read off is part of the state."""
-    model = roller(angle=-0.03)
+    model = roller(angle=-0.01)
     three = replace(model, steps=[*model.steps, sg.Step(name="on", scale={"press": 1.0, "turn": 1.5})])
     whole, first = sg.solve(three), sg.solve(model)
     first.save_state(tmp_path / "first.npz")
