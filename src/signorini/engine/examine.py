@@ -70,7 +70,6 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     """
     model = with_bolts(model)
     refuse_locking(model)
-    _refuse_sliding(model)
     factors = {} if start is None else start.state.point.factors
     before = Standing() if start is None else start.standing
     refuse_idle(model, factors)
@@ -101,21 +100,24 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         loading=loading,
         scale=data_scale(space, model, loading, interface),
     )
+    _refuse_sliding(model, examined.frames)
     _refuse_unheld(examined, schedule)
     return examined
 
 
-def _refuse_sliding(model: Model) -> None:
-    """Contacts that slide far are between bodies whose compliance stays.
+def _refuse_sliding(model: Model, frames: BodyFrames) -> None:
+    """Contacts that slide far are between bodies that yield, or between bodies that turn.
 
     Raises
     ------
     InputError
-        The first of them beside bodies that yield.
+        The first of them between both.
     """
+    if not model.yields or not frames:
+        return
     for i, contact in enumerate(model.contacts):
-        if contact.slides and model.yields:
-            words = 'is "finite", but a body yields, and its compliance would change; expected elastic bodies'
+        if contact.slides:
+            words = 'is "finite", a body yields and one may turn; expected elastic bodies, or supports against turning'
             raise InputError(words, where=("contact", i, "sliding"))
 
 

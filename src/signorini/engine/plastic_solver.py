@@ -206,6 +206,16 @@ class PlasticSolver:
         elastic = self.elastic.under(interface, scale, absent)
         return replace(self, elastic=elastic, interface=interface, scale=scale, absent=absent)
 
+    def paired(self, elastic: ContactSolver, interface: Interface) -> PlasticSolver:
+        """Bodies with other pairs, of sides that have slid.
+
+        Parameters
+        ----------
+        elastic : the same bodies with these pairs before anything yields
+        interface : with as many pairs, in the same order
+        """
+        return replace(self, elastic=elastic, tangents=self.tangents.paired(interface), interface=interface)
+
     def moving(self, ways: Array, interface: Interface, scale: Scale) -> PlasticSolver:
         """Bodies of which some rest, see `ContactSolver.moving`.
 

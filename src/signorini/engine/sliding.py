@@ -20,9 +20,10 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
 from signorini.engine.handing_over import hand_over, posed, turned, with_pairs
+from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose
-from signorini.engine.solver import CondensedSolver
+from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.step_parts import FollowedPart, StepPart, ending, joined, keep
 from signorini.engine.turning import first_share, refuse_turned, with_turned_loads
 from signorini.errors import InputError, SolveFailed
@@ -331,7 +332,9 @@ def paired(prepared: Prepared, interface: Interface) -> Prepared:
     condensed = prepared.paths.condensed.paired(B, interface, prepared.scale.stiffness)
     if prepared.absent.any():
         condensed = condensed.among(~prepared.absent)
-    solver = CondensedSolver.of(condensed, interface, prepared.scale, prepared.settings)
+    solver: ContactSolver = CondensedSolver.of(condensed, interface, prepared.scale, prepared.settings)
+    if isinstance(prepared.solver, PlasticSolver):
+        solver = prepared.solver.paired(solver, interface)
     wearing = None if prepared.wearing is None else worn_sides(prepared.space, prepared.model, interface)
     return replace(prepared, interface=interface, solver=solver, wearing=wearing)
 

@@ -17,6 +17,8 @@ from signorini.engine.examine import Examined
 from signorini.engine.multipliers import PATIENCE, make_multipliers
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.interface.active import FreeBodies
+from signorini.interface.interface import Interface
+from signorini.interface.sliding import sliding_unknowns
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.multifrontal import MultifrontalFactorisation
 from signorini.linalg.one_pattern import on_one_pattern
@@ -61,12 +63,19 @@ class TangentBodies:
         rows = self.yielding.rows()
         return rows, *on_one_pattern(self.stiffness, rows, self.examined.constraints.transform)
 
+    def paired(self, interface: Interface) -> TangentBodies:
+        """Tangents of the same bodies with other pairs, as many and in the same order: sides have slid."""
+        made = replace(self, examined=replace(self.examined, interface=interface))
+        made.__dict__["_patterns"] = self._patterns  # those of the bodies, whatever their pairs
+        return made
+
     @cached_property
     def bodies(self) -> FreeBodies:
         """With the elastic stiffness."""
         constraints, space = self.examined.constraints, self.examined.space
         B = sp.csr_array(self.examined.interface.B @ constraints.transform)
-        return FreeBodies(self.stiffness, B, constraints.nodes, space.places)
+        slide = sliding_unknowns(space, self.examined.model, self.examined.frames, constraints.transform)
+        return FreeBodies(self.stiffness, B, constraints.nodes, space.places, slide)
 
     @cached_property
     def kept(self) -> Kept:
