@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from signorini.model.bolt import Bolt
     from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
-    from signorini.model.links import Equation, RigidBody
+    from signorini.model.links import CyclicSymmetry, Equation, RigidBody
     from signorini.model.material import Elastic, Orthotropic
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
@@ -51,6 +51,7 @@ __all__ = [
     "Circle",
     "Cone",
     "Contact",
+    "CyclicSymmetry",
     "Cylinder",
     "Elastic",
     "Equation",
@@ -117,7 +118,7 @@ _HOMES = {
     "signorini.model.bolt": ("Bolt",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),
-    "signorini.model.links": ("Equation", "RigidBody"),
+    "signorini.model.links": ("CyclicSymmetry", "Equation", "RigidBody"),
     "signorini.model.material": ("Elastic", "Orthotropic"),
     "signorini.model.mesh": ("Mesh", "join"),
     "signorini.model.model": ("Model",),

@@ -136,7 +136,8 @@ def members(values: Any, kind: type, part: str) -> tuple[Any, ...]:
     kind : their class
     part : plural under which a model has them, for messages
     """
-    singular = {"bodies": "body", "rigid_bodies": "rigid_body"}.get(part, part.removesuffix("s"))
+    irregular = {"bodies": "body", "rigid_bodies": "rigid_body", "cyclic_symmetries": "cyclic_symmetry"}
+    singular = irregular.get(part, part.removesuffix("s"))
     if isinstance(values, kind):
         values = (values,)
     for i, value in enumerate(values):

@@ -16,7 +16,7 @@ from signorini.model.body import Body
 from signorini.model.bolt import Bolt
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
-from signorini.model.links import Equation, RigidBody
+from signorini.model.links import CyclicSymmetry, Equation, RigidBody
 from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Circle, Obstacle, Plane, Profile, Sphere
@@ -89,6 +89,7 @@ FIELDS = {
     "obstacle": "obstacles",
     "rigid_body": "rigid_bodies",
     "equation": "equations",
+    "cyclic_symmetry": "cyclic_symmetries",
     "bolt": "bolts",
     "step": "steps",
 }
@@ -110,6 +111,7 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
         "load": Load,
         "rigid_body": RigidBody,
         "equation": Equation,
+        "cyclic_symmetry": CyclicSymmetry,
         "bolt": Bolt,
         "step": Step,
     }

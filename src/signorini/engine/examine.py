@@ -14,6 +14,7 @@ from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
 from signorini.engine.free_motion_check import left_out, refuse_free_motions
 from signorini.errors import InputError
 from signorini.fem.body_frames import BodyFrames
+from signorini.fem.cyclic import refuse_contact_across
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
@@ -80,6 +81,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     first, sometimes = schedule[0].released, schedule[-1].loosened
     constraints = make_constraints(space, model, without=first)
     always = make_constraints(space, model, without=sometimes) if sometimes != first else constraints
+    refuse_contact_across(space, model)
     loads = nodal_loads(space, model)
     interface = make_interface(space, model, always)
     if start is not None:

@@ -10,6 +10,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
+from signorini.fem.cyclic import cyclic_rows
 from signorini.fem.obstacles import arm, carried
 from signorini.fem.places import nodes_at
 from signorini.fem.space import Space
@@ -28,19 +29,24 @@ class Links:
     ----------
     C : (rows, dofs) coefficients, the largest of each row 1
     first : (rows,) the dof that each should be solved for
-    source : (rows,) number of the equation of the model, then of its rigid bodies
-    equations : how many equations the model has
+    source : (rows,) number of the equation of the model, then of its rigid bodies, then of its cyclic symmetries
+    equations, rigid_bodies : how many of them the model has
     """
 
     C: sp.csr_array
     first: IntArray
     source: IntArray
     equations: int
+    rigid_bodies: int
 
     def where(self, row: int) -> Where:
         """The place in the model that a row comes from."""
         number = int(self.source[row])
-        return ("equation", number) if number < self.equations else ("rigid_body", number - self.equations)
+        for key, count in (("equation", self.equations), ("rigid_body", self.rigid_bodies)):
+            if number < count:
+                return (key, number)
+            number -= count
+        return ("cyclic_symmetry", number)
 
 
 def linked_nodes(model: Model) -> IntArray:
@@ -55,7 +61,7 @@ def linked_nodes(model: Model) -> IntArray:
 
 
 def make_links(space: Space, model: Model) -> Links:
-    """The rows of all equations and rigid bodies.
+    """The rows of all equations, rigid bodies and cyclic symmetries.
 
     Raises
     ------
@@ -64,6 +70,7 @@ def make_links(space: Space, model: Model) -> Links:
     """
     parts = [_equation(space, model, i, equation) for i, equation in enumerate(model.equations)]
     parts += [_rigid(space, model, j) for j in range(len(model.rigid_bodies))]
+    parts += [cyclic_rows(space, model, j) for j in range(len(model.cyclic_symmetries))]
     sizes = [len(columns) for columns, _ in parts]
     none = np.empty(0, np.int64)
     widths = [np.full(len(columns), columns.shape[1]) for columns, _ in parts]
@@ -81,6 +88,7 @@ def make_links(space: Space, model: Model) -> Links:
         first=np.concatenate([none, *(columns[:, 0] for columns, _ in parts)]),
         source=np.repeat(np.arange(len(parts)), sizes),
         equations=len(model.equations),
+        rigid_bodies=len(model.rigid_bodies),
     )
 
 

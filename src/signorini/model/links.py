@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from signorini.checks import choice, number, text, vector
+from signorini.checks import choice, number, text, vector, whole
 from signorini.errors import InputError
 
 AXES = ("x", "y", "z")
@@ -83,6 +83,43 @@ class RigidBody:
     def label(self) -> str:
         """The name in results."""
         return self.name
+
+
+@dataclass(frozen=True)
+class CyclicSymmetry:
+    """A sector that repeats around an axis: ``u(R x) = R u(x)`` with R the rotation by ``2 pi / sectors``.
+
+    Loads, supports and contacts are those of one sector, and every other has the same. Displacements are those of one
+    sector too, and no sector moves otherwise than its neighbour.
+
+    Parameters
+    ----------
+    first, second : boundaries between a sector and its neighbours, whose nodes rotate onto each other, one way or the
+        other
+    sectors : how many make the whole, >= 2
+    point : that the axis goes through, length; the origin by default
+    axis : along which it goes, in space; z by default
+
+    Examples
+    --------
+    >>> CyclicSymmetry("start", "end", sectors=12).axis
+    (0.0, 0.0, 1.0)
+    """
+
+    first: str
+    second: str
+    sectors: int
+    point: tuple[float, ...] = ()
+    axis: tuple[float, ...] = (0.0, 0.0, 1.0)
+
+    def __post_init__(self) -> None:
+        text(self.first, ("first",))
+        text(self.second, ("second",))
+        whole(self.sectors, ("sectors",), least=2)
+        object.__setattr__(self, "point", vector(self.point, ("point",)))
+        object.__setattr__(self, "axis", vector(self.axis, ("axis",), dimension=3))
+        if not any(self.axis):
+            raise InputError("is zero; expected a direction", where=("axis",))
 
 
 def directions(dimension: int) -> tuple[str, ...]:

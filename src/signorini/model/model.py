@@ -18,7 +18,7 @@ from signorini.model.bolt import Bolt
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Place, Support
 from signorini.model.contact import Contact
 from signorini.model.labels import Labelled, refuse_same_names
-from signorini.model.links import Equation, RigidBody, directions
+from signorini.model.links import CyclicSymmetry, Equation, RigidBody, directions
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
@@ -44,7 +44,8 @@ class Model(Short):
     supports, foundations, loads, contacts : see :class:`Support`, :class:`Foundation`, :class:`Load`,
         :class:`Contact`
     obstacles : rigid ones that move, see :class:`Rigid`; fixed ones are said in the contact itself
-    equations, rigid_bodies : what couples displacements without an element, see :class:`Equation`, :class:`RigidBody`
+    equations, rigid_bodies, cyclic_symmetries : what couples displacements without an element, see :class:`Equation`,
+        :class:`RigidBody`, :class:`CyclicSymmetry`
     bolts : sections that are drawn together, see :class:`Bolt`
     steps : the load history; by default one step, all loads from 0 to 1, in one increment
     title, units : said again in the results
@@ -77,6 +78,7 @@ class Model(Short):
     obstacles: Sequence[Rigid] = ()
     equations: Sequence[Equation] = ()
     rigid_bodies: Sequence[RigidBody] = ()
+    cyclic_symmetries: Sequence[CyclicSymmetry] = ()
     bolts: Sequence[Bolt] = ()
     steps: Sequence[Step] = (Step(name="load"),)
     title: str = ""
@@ -95,6 +97,7 @@ class Model(Short):
             self._refuse_thickness(self.thickness, ("thickness",))
         kinds = {"bodies": Body, "supports": Support, "foundations": Foundation, "loads": Load, "contacts": Contact}
         kinds |= {"obstacles": Rigid, "equations": Equation, "rigid_bodies": RigidBody, "bolts": Bolt, "steps": Step}
+        kinds |= {"cyclic_symmetries": CyclicSymmetry}
         for part, kind in kinds.items():
             object.__setattr__(self, part, members(getattr(self, part), kind, part))
         bodies = (body.in_kind(self.kind, self.mesh.families(body.name)) for body in self.bodies)
@@ -305,6 +308,13 @@ class Model(Short):
             if body.on not in self.mesh.bodies:
                 self._check_place(body.on, (*where, "on"), nodes=True)
             self._check_dimension(body.point, (*where, "point"))
+        for i, symmetry in enumerate(self.cyclic_symmetries):
+            for key in ("first", "second"):
+                self._check_place(getattr(symmetry, key), ("cyclic_symmetry", i, key), nodes=False)
+            if symmetry.point:
+                self._check_dimension(symmetry.point, ("cyclic_symmetry", i, "point"))
+            if self.axisymmetric:
+                raise InputError("an axisymmetric body is the same all around", where=("cyclic_symmetry", i))
         for i, equation in enumerate(self.equations):
             for k, (on, _, _) in enumerate(equation.terms):
                 if not isinstance(on, int):
