@@ -8,9 +8,9 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
+from signorini.gallery.sectors import SECTORS, ring_on_pads
 
 STEEL = sg.Elastic(E=200.0, nu=0.3, density=2.0)
-SECTORS = 6
 
 
 def ring(angle, n, inner=1.0, outer=2.0):
@@ -60,35 +60,9 @@ def test_a_sector_of_a_ring_is_the_ring():
     assert sg.solve(turned).steps[-1].strain_energy == pytest.approx(part.strain_energy, rel=1e-12)
 
 
-def pads(count, **given):
-    """A ring with a pad inside each sector, pressed outwards with friction by what repeats."""
-    parts = {"ring": ring(360.0 if count > 1 else 60.0, 48 if count > 1 else 8)}
-    for k in range(count):
-        pad, angle = ring(30.0, 4, inner=0.7, outer=1.0), np.pi / 12 + k * np.pi / 3
-        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-        parts[f"pad{k}"] = replace(pad, points=pad.points @ turn.T)
-    names = [f"pad{k}" for k in range(count)]
-    return sg.Model(
-        sg.join(parts),
-        kind="plane strain",
-        bodies=[sg.Body(name, STEEL) for name in parts],
-        supports=[
-            sg.Support("ring.outer", u=(0.0, 0.0)),
-            *(sg.Support(f"{name}.inner", u=(0.0, 0.0)) for name in names),
-        ],
-        loads=loads("ring.")[1:],
-        contacts=[
-            sg.Contact(f"{name}.outer", "ring.inner", friction=0.15, interference=0.002, name=name) for name in names
-        ],
-        steps=[sg.Step(scale={"spokes": 0.0, "spin": 0.0}), sg.Step(scale={"spokes": 1.0, "spin": 1.0})],
-        **given,
-    )
-
-
 def test_a_sector_with_contact_and_friction_is_the_whole():
-    whole = pads(6)
-    sector = pads(1, cyclic_symmetries=[sg.CyclicSymmetry("ring.start", "ring.end", sectors=SECTORS)])
-    for one, part in zip(sg.solve(whole).steps, sg.solve(sector).steps, strict=True):
+    whole, sector = (sg.solve(ring_on_pads(whole=every)) for every in (True, False))
+    for one, part in zip(whole.steps, sector.steps, strict=True):
         assert part.contacts[0].pressure == pytest.approx(one.contacts[0].pressure, rel=1e-9, abs=1e-12)
         assert part.contacts[0].traction == pytest.approx(one.contacts[0].traction, rel=1e-9, abs=1e-9)
         assert SECTORS * part.strain_energy == pytest.approx(one.strain_energy, rel=1e-9)

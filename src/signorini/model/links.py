@@ -94,8 +94,8 @@ class CyclicSymmetry:
 
     Parameters
     ----------
-    first, second : boundaries between a sector and its neighbours, whose nodes rotate onto each other, one way or the
-        other
+    first, second : boundaries or node sets between a sector and its neighbours, whose nodes rotate onto each other, one
+        way or the other
     sectors : how many make the whole, >= 2
     point : that the axis goes through, length; the origin by default
     axis : along which it goes, in space; z by default

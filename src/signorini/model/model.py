@@ -310,7 +310,7 @@ class Model(Short):
             self._check_dimension(body.point, (*where, "point"))
         for i, symmetry in enumerate(self.cyclic_symmetries):
             for key in ("first", "second"):
-                self._check_place(getattr(symmetry, key), ("cyclic_symmetry", i, key), nodes=False)
+                self._check_place(getattr(symmetry, key), ("cyclic_symmetry", i, key), nodes=True)
             if symmetry.point:
                 self._check_dimension(symmetry.point, ("cyclic_symmetry", i, "point"))
             if self.axisymmetric:

@@ -22,6 +22,7 @@ from signorini.verify import (
     rings,
     rolling,
     scalar,
+    sectors,
     sliding,
     solids,
     space,
@@ -88,6 +89,7 @@ QUICK: tuple[Case, ...] = (
     rolling.rolling_without_slip,
     rolling.tilted_block,
     bolts.stiffness_diagram,
+    sectors.ring_and_sector,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,

@@ -16,6 +16,7 @@ from signorini.deck.deck import Deck
 from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.conditions import Conditions, make_conditions
+from signorini.deck.inp.cyclic import make_cyclic
 from signorini.deck.inp.grid import DeckGrid, make_grid
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS, of_keyword, refuse_unsupported
 from signorini.deck.inp.known import Known, make_known
@@ -87,7 +88,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     _refuse_large(steps, contacts, small_strain)
     rigid, equations = make_deck_links(outside, known)
     conditions = make_conditions(follow_steps(outside, steps, known, rigid), known)
-    pretensions = make_pretensions(outside, known)
+    pretensions, sectors = make_pretensions(outside, known), make_cyclic(outside, known)
     mesh = cut_along(_mesh(known), pretensions)
     changes = [make_changes(step.cards, known, contacts) for step in steps]
     initial = initial_temperatures(outside, known)
@@ -102,6 +103,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
             *((item.equation, item.card) for item in [*equations, *conditions.equations]),
             *pretension_equations(mesh, pretensions),
         ],
+        "cyclic_symmetry": sectors,
         "step": [(_step(k, steps, conditions, changes[k], deck_increments), steps[k].card) for k in range(len(steps))],
     }
     places: dict[Where, Card] = {(key, i): card for key, found in made.items() for i, (_, card) in enumerate(found)}

@@ -11,6 +11,7 @@ import numpy as np
 
 from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card, Row, to_number
+from signorini.deck.inp.cyclic import TIED_SIDES
 from signorini.deck.inp.interactions import Interaction, read_friction
 from signorini.deck.inp.keywords import look_up, of_keyword
 from signorini.deck.inp.known import Known
@@ -83,6 +84,8 @@ def make_contacts(cards: Sequence[Card], known: Known, *, large: bool) -> list[P
 def _ties(cards: Sequence[Card], known: Known) -> Iterator[tuple[Card, DeckSurface, DeckSurface, dict[str, Any]]]:
     """Surfaces that neither slip nor open, with how far initial gaps count as filled."""
     for card in of_keyword(cards, "TIE"):
+        if TIED_SIDES in card.parameters:
+            continue
         card.refuse_unknown(("NAME", "POSITION TOLERANCE", "ADJUST"), ("TYPE", "CONSTRAINT RATIO"))
         given: dict[str, Any] = {}
         if "POSITION TOLERANCE" in card.parameters:
