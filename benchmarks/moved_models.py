@@ -33,6 +33,11 @@ def in_other_units(model: sg.Model) -> tuple[sg.Model, Back]:
     def long(u: Sequence[float | None]) -> tuple[float | None, ...]:
         return tuple(part if part is None else part * _LENGTH for part in u)
 
+    def shape(one: Any) -> Any:
+        if not isinstance(one, sg.Circle):
+            return one  # planes go through the origin
+        return sg.Circle(tuple(part * _LENGTH for part in one.centre), one.radius * _LENGTH)
+
     def heated(load: sg.Load) -> sg.Load:
         return load if load.temperature is None else replace(load, temperature=lambda x: load.temperature(x / _LENGTH))
 
@@ -51,7 +56,8 @@ def in_other_units(model: sg.Model) -> tuple[sg.Model, Back]:
         bodies=bodies,
         supports=[replace(support, u=long(support.u)) for support in model.supports],
         loads=[heated(load) for load in model.loads],
-        obstacles=[replace(obstacle, u=long(obstacle.u)) for obstacle in model.obstacles],
+        contacts=[replace(contact, mortar=shape(contact.mortar)) for contact in model.contacts],
+        obstacles=[replace(one, shape=shape(one.shape), u=long(one.u)) for one in model.obstacles],
         steps=steps,
     )
     return other, lambda u: u / _LENGTH
