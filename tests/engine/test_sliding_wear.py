@@ -11,7 +11,7 @@ import pytest
 
 import signorini as sg
 from signorini.gallery.sliding import driven_wheel
-from signorini.gallery.wearing import to_and_fro
+from signorini.gallery.wearing import FRICTION, fretting, rubbed_cylinder, to_and_fro
 
 STEEL = sg.Elastic(E=200.0, nu=0.3)
 WEAR = sg.Wear(1e-3, mortar=2e-3)
@@ -113,3 +113,20 @@ def test_sides_that_slid_and_wore_go_on_to_the_last_bit(tmp_path: Path) -> None:
     sg.solve(replace(model, steps=steps[:2])).save_state(tmp_path / "state.npz")
     rest = sg.solve(replace(model, steps=steps[2:]), start=tmp_path / "state.npz")
     assert np.array_equal(rest.end.state.wear.depth, whole.end.state.wear.depth)
+
+
+@pytest.mark.slow
+def test_cycles_go_through_the_strides_of_the_last_one() -> None:
+    """On the condensed interface as with all that is known of bodies, but for how far pairs have drifted."""
+    fast = sg.Wear(1.9e-6, mortar=2.9e-6)
+    seen, unseen = (
+        sg.solve(rubbed_cylinder(fretting(4, **way), wear=fast, spacing=0.1, stroke=0.02, sliding="finite"))
+        for way in ({"at": "events"}, {})
+    )
+    one, two = (solution.end.state.wear for solution in (seen, unseen))
+    assert [cycle.number for cycle in unseen.last.cycles] == [1, 2, 4]
+    assert np.abs(two.depth - one.depth).max() < 2e-3 * one.depth.max()
+    assert two.volume.sum() + two.loose.sum() == pytest.approx(4.8e-6 * rubbed(unseen, FRICTION), rel=1e-12)
+    assert unseen.last.work == pytest.approx(seen.last.work, rel=1e-3)
+    assert abs(unseen.last.energy_defect) < 1e-12 * unseen.last.work
+    assert unseen.last.certificate.passed

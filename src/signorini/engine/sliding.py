@@ -36,7 +36,6 @@ from signorini.outcome import Outcome
 from signorini.solution.state import State, wear_of
 
 _STRIDE = 0.25  # of the shortest facet: how far sides slide before pairs are made anew
-_AHEAD = 0.1  # of a stride: more than what handing over moves
 _BENT = 2e-3  # of forces over the stiffness of the bodies: what gaps may differ in the middle of a stride
 _SHORTEST_MOVE = 0.125  # of a stride: what bodies move at least, however gaps bend
 _TURN = 0.1  # radians: what a body turns by in a stride at most, for loads keep their direction as it sees them
@@ -45,6 +44,9 @@ _GROWTH = 2.0  # of a stride over the one before it, in load
 _SHORTER = 8.0  # times: a stride that is lost is tried again
 _SHORTEST_SHARE = 1e-6  # of the rest of a part: below it no stride that is lost is tried again
 _SAID_FROM = 1e-12  # of the largest force: what handing over may change and no one need know
+
+AHEAD = 0.1
+"""Of a stride: how far pairs that slip are led on while they hand over, more than that moves them."""
 
 Follow = Callable[[StepPart], FollowedPart]
 
@@ -168,7 +170,7 @@ class _Walk:
         first = middle.gap_before() + self.beyond(prepared, begun)
         before = posed(prepared, now.before, seen, first)
         if before.forces.any():
-            passed = hand_over(prepared, before, now, _AHEAD * self.limit)
+            passed = hand_over(prepared, before, now, AHEAD * self.limit)
             changed = float(np.abs(passed.after.forces - before.forces).max() / np.abs(before.forces).max())
             behind.append(passed)
             before = passed.after
@@ -220,7 +222,7 @@ class _Walk:
         prepared = with_turned_loads(paired(part.prepared, place.interface), state.displacement)
         gap = place.gap_before() + self.beyond(prepared, 1.0)
         before = posed(prepared, state, self.seen_last(last, state.displacement), gap)
-        followed = hand_over(prepared, before, at_end, _AHEAD * self.limit)
+        followed = hand_over(prepared, before, at_end, AHEAD * self.limit)
         return replace(last, followed=followed, prepared=prepared, middle=state.displacement)
 
     def worn(self, prepared: Prepared, before: State, followed: FollowedPart) -> FollowedPart:
@@ -265,7 +267,7 @@ def follow_sliding(
         What ended a stride, with all strides before it.
     """
     none = np.zeros(0 if part.before.wear is None else len(part.before.wear.depth))
-    limit = _STRIDE * shortest_facet(part.prepared)
+    limit = stride_of(part.prepared)
     walk = _Walk(part=part, follow=follow, limit=limit, lost=none if lost is None else lost)
     behind: list[Stride] = [] if strides is None else strides
     first = len(behind)
@@ -344,6 +346,11 @@ def _slid(prepared: Prepared, begin: State, end: State, own: BoolArray) -> float
     way = np.linalg.norm(prepared.interface.motion(end.displacement - begin.displacement)[1:], axis=0)
     touch = own & ((begin.status != OPEN) | (end.status != OPEN))
     return float(way[touch if touch.any() else own].max(initial=0.0))
+
+
+def stride_of(prepared: Prepared) -> float:
+    """How far sides slide at most before pairs are made anew, length."""
+    return _STRIDE * shortest_facet(prepared)
 
 
 def shortest_facet(prepared: Prepared) -> float:

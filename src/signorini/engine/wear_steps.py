@@ -13,13 +13,16 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property, partial
 
+import numpy as np
+
 from signorini.arrays import Array
 from signorini.attempt import MethodRun
 from signorini.engine.cycles import cycle_between
 from signorini.engine.events import stops_at
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose, worn
-from signorini.engine.sliding import follow_sliding
+from signorini.engine.sliding import Stride, follow_sliding
+from signorini.engine.sliding_cycles import SlidingCycles
 from signorini.engine.step_parts import (
     FollowedPart,
     Interval,
@@ -97,11 +100,17 @@ class _Walk:
         self.at: PathCycle | None = None
         self.behind: list[FollowedPart] = []
         self.ends: list[float] = []
+        self._recurring: SlidingCycles | None = None
+        self._strides: list[Stride] = []
         self._since = 0
 
-    @cached_property
-    def paths(self) -> WornPaths | None:
+    @property
+    def paths(self) -> WornPaths | SlidingCycles | None:
         """Cycles on the condensed interface; None where increments or bodies at every event are asked for."""
+        return self._recurring if slides(self.prepared.model) else self._of_pairs_that_stay
+
+    @cached_property
+    def _of_pairs_that_stay(self) -> WornPaths | None:
         step, point = self.stage.step, self.start.point
         if step.increments is not None or step.path == "increments" or step.at == "events" or self.heated:
             return None
@@ -122,19 +131,38 @@ class _Walk:
                 self.at = moved
                 return found
         self._whole(number - 1)
+        self._strides = []
         begin, (parts, interval) = self.state, self._cycle_parts(number)
         parts.append(self._worn(interval))
         self._keep(joined(parts), begin, number)
+        self._record()
         return None
+
+    def _record(self) -> None:
+        """Cycles like the one that was followed go through its strides again."""
+        self._recurring = None
+        step, start, stage = self.stage.step, self.start.point, self.stage
+        m = step.segments
+        steady = np.array_equal(start.gap, self.end.gap) and not start.given.any() and not start.reaction.any()
+        alike = stage.ends[:m] == stage.ends[m : 2 * m]
+        exact = step.increments is None and step.path != "increments" and self.prepared.interface.directions == 2
+        looked_at = step.at == "events" or self.heated or bool(self.prepared.frames)
+        if looked_at or not (self._strides and steady and alike and exact):
+            return
+        found = SlidingCycles(self.prepared, self._strides)
+        self._recurring = found if found.recur else None
 
     def blocks(self) -> None:
         """The step in implicit blocks, which end at the latest where a cycle is kept."""
         step = self.stage.step
         assert step.block is not None
-        if self.paths is None:
+        if slides(self.prepared.model):
+            words = "blocks of cycles are for sides that slide a little; expected cycles one by one, without 'block'"
+            raise SolveFailed(f"{self.stage.name}: {words}", status=Outcome.NOT_FOUND)
+        if self._of_pairs_that_stay is None:
             words = "blocks of cycles need exact paths; expected no 'increments', and no results at events"
             raise SolveFailed(f"{self.stage.name}: {words}", status=Outcome.NOT_FOUND)
-        blocks = CycleBlocks(self.paths, step.block, step.tolerance or TOLERANCE_OF_DEPTH)
+        blocks = CycleBlocks(self._of_pairs_that_stay, step.block, step.tolerance or TOLERANCE_OF_DEPTH)
         behind = 0
         while behind < step.repeat:
             room = next(number for number in range(behind + 1, step.repeat + 1) if self._kept(number)) - behind
@@ -266,7 +294,7 @@ class _Walk:
             whole=self.stage.step.at == "events",
         )
         if slides(self.prepared.model):
-            followed = follow_sliding(part, partial(follow_part, self.stage), lost)
+            followed = follow_sliding(part, partial(follow_part, self.stage), lost, self._strides)
         else:
             followed = follow_part(self.stage, part)
             if lost is not None:

@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Strides that recur in every cycle: their pairs, the compliance that these see, and the way to the next.
+
+Positions come back in every cycle, but for what bodies strain; so pairs, B, and the condensed compliance ``B C B^T`` of
+a stride are those of the cycle before, and only gaps change, by what is worn. Between two strides a displacement of
+the bodies is seen by other pairs: ``B u = B C B_last^T r + ...``, a product of matrices of the size of the interface.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.condense.response import ByNodes
+from signorini.engine.increments import applied, free_load, moved_by_supports
+from signorini.engine.prepare import Prepared
+from signorini.engine.sliding import Stride
+from signorini.friction.history import PathState
+from signorini.interface.worn_sides import WornSides
+from signorini.law.states import OPEN
+from signorini.solution.state import LoadPoint
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class StridePairs:
+    """The a active pairs between two strides, in units of the problem.
+
+    Attributes
+    ----------
+    r : (2, a) forces, normal and tangential
+    ways : (k,) of the bodies along rigid motions
+    gap, tangential, slip : (a,) length
+    status : (a,) codes of the law
+    dissipation : (a,) energy
+    """
+
+    r: Array
+    ways: Array
+    gap: Array
+    tangential: Array
+    slip: Array
+    status: IntArray
+    dissipation: Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Track:
+    """A stride that recurs.
+
+    Attributes
+    ----------
+    prepared : with its pairs, and the sides as these see them
+    points : of the loads at its ends; gaps without wear
+    tangential : (a,) tangential displacement of the bodies at its end, as it was recorded
+    X : (2 a, 2 a) motions of the pairs over forces, length per force
+    N : (2 a, k) over rigid motions
+    free : (2, 2 a) motions under the loads at its ends, and what supports impose
+    resultants : (2, k) of the loads
+    """
+
+    prepared: Prepared
+    points: tuple[LoadPoint, LoadPoint]
+    tangential: Array
+    X: Array
+    N: Array
+    free: Array
+    resultants: Array
+    inverses: dict[tuple[float, bytes], Array] = field(default_factory=dict)
+
+    @staticmethod
+    def of(stride: Stride) -> Track:
+        """What a stride that was followed leaves to those after it."""
+        prepared, before, end = stride.prepared, stride.part.before.point, stride.part.end
+        condensed = prepared.paths.condensed
+        own = np.where(np.isnan(stride.gaps), 0.0, stride.gaps)
+        points = replace(before, gap=own[0]), replace(end, gap=own[1])
+        free, resultants = [], []
+        for point in points:
+            load = condensed.reduce(free_load(prepared, point)).load
+            imposed = moved_by_supports(prepared, applied(prepared, point)[1])[:, condensed.active]
+            free.append(condensed.response.moved(load) + imposed.ravel())
+            resultants.append(condensed.response.resultant(load))
+        X = condensed.response.compliance()
+        X[np.diag_indices_from(X)] += condensed.compliance.ravel()
+        return Track(
+            prepared=prepared,
+            points=points,
+            tangential=stride.followed.after.tangential[0, condensed.active],
+            X=X,
+            N=condensed.response.motions,
+            free=np.array(free),
+            resultants=np.array(resultants),
+        )
+
+    @property
+    def sides(self) -> WornSides:
+        """As its pairs see them."""
+        assert self.prepared.wearing is not None
+        return self.prepared.wearing
+
+    @cached_property
+    def gaps(self) -> Array:
+        """(2, a) Between sides that are not worn, at its ends."""
+        return np.array([point.gap[self.prepared.paths.active] for point in self.points])
+
+    @cached_property
+    def seen(self) -> Array:
+        """(a, m) What pairs feel of worn depths."""
+        return self.sides.gap.toarray()[self.prepared.paths.active]
+
+    @cached_property
+    def wears(self) -> Array:
+        """(m, a) Volume at the corners over what pairs rub, of normal force times distance or of energy."""
+        active = self.prepared.paths.active
+        return self.sides.volume.toarray()[:, active] / self.prepared.interface.area[active]
+
+    @cached_property
+    def friction(self) -> Array:
+        """(a,) Coulomb's coefficient."""
+        return self.prepared.paths.law.pieces.slopes[0]
+
+    @cached_property
+    def loads(self) -> Array:
+        """(2, 2 a) b of the law at its ends, between sides that touch nowhere."""
+        condensed, found = self.prepared.paths.condensed, []
+        for point in self.points:
+            load = condensed.reduce(free_load(self.prepared, point)).load
+            offset = moved_by_supports(self.prepared, applied(self.prepared, point)[1])[:, condensed.active]
+            found.append(condensed.right_hand_side(load, offset))
+        return np.array(found)
+
+    def sliding(self, sign: float) -> tuple[Array, Array]:
+        """(2 a, a) Motions over normal forces of pairs that slip, friction along ``sign``, and (k, a) resultants."""
+        return self._sliding_plus if sign > 0.0 else self._sliding_minus
+
+    @cached_property
+    def _sliding_plus(self) -> tuple[Array, Array]:
+        return self._with_friction(self.friction)
+
+    @cached_property
+    def _sliding_minus(self) -> tuple[Array, Array]:
+        return self._with_friction(-self.friction)
+
+    def _with_friction(self, f: Array) -> tuple[Array, Array]:
+        a = len(f)
+        return self.X[:, :a] + self.X[:, a:] * f, (self.N[:a] + f[:, None] * self.N[a:]).T
+
+    def inverse(self, sign: float, closed: IntArray) -> Array:
+        """Of the system of closed pairs that slip and rigid motions, kept for the cycles that come."""
+        key = sign, closed.tobytes()
+        found = self.inverses.get(key)
+        if found is None:
+            (moves, resists), c, k = self.sliding(sign), len(closed), self.N.shape[1]
+            system = np.zeros((c + k, c + k))
+            system[:c, :c] = moves[np.ix_(closed, closed)]
+            system[:c, c:], system[c:, :c] = self.N[closed], resists[:, closed]
+            found = self.inverses[key] = np.linalg.inv(system)
+        return found
+
+    def pairs(self, now: PathState, gap: Array, at: int) -> StridePairs:
+        """A state of the path in units of the problem.
+
+        Parameters
+        ----------
+        now : the state
+        gap : (a,) between which its pairs are
+        at : whether it is at the beginning of the stride or its end, 0 or 1
+        """
+        root = self.prepared.paths.condensed.root
+        h, r = now.h / root, now.r * root
+        beyond = h.ravel() - self.X @ r.ravel() - self.free[at]
+        beyond[: len(gap)] -= gap
+        return StridePairs(
+            r=r,
+            ways=np.linalg.lstsq(self.N, beyond, rcond=None)[0] if self.N.shape[1] else np.zeros(0),
+            gap=h[0],
+            tangential=h[1],
+            slip=now.slip[0] / root,
+            status=now.state,
+            dissipation=now.dissipation,
+        )
+
+    def state(self, pairs: StridePairs, gap: Array, at: int) -> PathState:
+        """The state of the path that pairs are in, in the scaled units of the law.
+
+        Parameters
+        ----------
+        pairs : the pairs
+        gap, at : as of `pairs`
+        """
+        condensed = self.prepared.paths.condensed
+        h = condensed.root * np.array([pairs.gap, pairs.tangential])
+        return PathState(
+            b=self.loads[at] + condensed.of_gaps(gap),
+            h=h,
+            r=pairs.r / condensed.root,
+            state=pairs.status,
+            anchor=h[1:],
+            slip=(condensed.root * pairs.slip)[None],
+            dissipation=pairs.dissipation,
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Link:
+    """From the end of a stride to the beginning of the next.
+
+    Attributes
+    ----------
+    last, next : the strides
+    across : (2 a, 2 a) motions of the next one's pairs over forces of the last one's
+    turn : (2, 2, a) from the frames of the last one to those of the next
+    """
+
+    last: Track
+    next: Track
+    across: Array
+    turn: Array
+
+    @staticmethod
+    def between(last: Track, track: Track) -> Link | None:
+        """From one stride to the other; None where other pairs are active."""
+        one, two = last.prepared.paths.condensed, track.prepared.paths.condensed
+        if not np.array_equal(one.active, two.active) or not np.array_equal(one.dofs, two.dofs):
+            return None
+        assert isinstance(one.response, ByNodes)
+        moved = one.response.parts.solve(one.B.T.toarray())
+        interfaces = last.prepared.interface, track.prepared.interface
+        frames = [np.stack([of.normals, of.tangents[:, 0]], axis=1)[one.active] for of in interfaces]
+        return Link(
+            last=last,
+            next=track,
+            across=np.asarray(two.B @ moved),
+            turn=np.einsum("kij,klj->ilk", frames[1], frames[0]),
+        )
+
+    def seen(self, now: StridePairs) -> tuple[Array, Array]:
+        """(2 a,) motions of the next one's pairs as the bodies are, and (2, a) the forces in their frames."""
+        moved = self.across @ now.r.ravel() + self.next.free[0] + self.next.N @ now.ways
+        return moved, np.einsum("ilk,lk->ik", self.turn, now.r)
+
+    def set_free(self, old: StridePairs, turned: Array, new: StridePairs, taken: float) -> float:
+        """Energy that handing over sets free, beyond what friction takes.
+
+        Parameters
+        ----------
+        old, new : the pairs before, of the last stride, and behind, of the next
+        turned : (2, a) forces before, in the frames of the next
+        taken : by friction
+        """
+        ways, r0, r1 = new.ways - old.ways, old.r.ravel(), new.r.ravel()
+        own = [track.prepared.paths.condensed.compliance.ravel() for track in (self.last, self.next)]
+        of_next = self.next.X @ r1 - own[1] * r1 - self.across @ r0 + self.next.N @ ways
+        of_last = self.across.T @ r1 - self.last.X @ r0 + own[0] * r0 + self.last.N @ ways
+        soft = 0.5 * float(own[1] @ (r1**2 - turned.ravel() ** 2))
+        return -0.5 * float(of_next @ r1 + of_last @ r0) - taken - soft
+
+
+def closed_of(pairs: StridePairs) -> IntArray:
+    """Numbers of the pairs that touch."""
+    return np.flatnonzero(pairs.status != OPEN)

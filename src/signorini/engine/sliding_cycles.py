@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cycles of sides that slide far and wear, on the condensed interface alone, through strides that recur.
+
+The strides are those of the last cycle that was followed with its bodies; what hands over, slides and wears is the same
+as there. Where every pair that touches slips on, as in the middle of a stroke, a stride is a linear complementarity
+problem in the normal forces alone, followed from event to event; where the motion turns, the exact path of the law.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.engine.gross_sliding import Gone, slide
+from signorini.engine.handing_over import turned
+from signorini.engine.path_states import balanced, path_state, recovered
+from signorini.engine.prepare import Prepared
+from signorini.engine.recurring_strides import Link, StridePairs, Track
+from signorini.engine.rubbing import Rubbing, rubbed, rubbing_of_segment
+from signorini.engine.sliding import AHEAD, Stride, stride_of
+from signorini.engine.wear_paths import FollowedCycle, PathCycle
+from signorini.friction.history import PathSettings, Segment
+from signorini.friction.solve import solve_contact
+from signorini.interface.worn_sides import WornSides
+from signorini.law.states import OPEN, STICK
+from signorini.solution.state import LoadPoint, State, wear_of
+from signorini.solution.wear_state import WearState
+
+_DRIFT = 0.1  # of a stride: how far bodies may be from where its pairs were found
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class StrideCycle(PathCycle):
+    """Where a step stands between cycles; its pairs are those of the last stride, home.
+
+    Attributes
+    ----------
+    gap : (a,) between which these pairs are, before anything moved, length
+    handed : energy set free as sides hand over to other pairs
+    """
+
+    gap: Array
+    handed: float = 0.0
+
+
+class SlidingCycles:
+    """The strides of the cycles of a step.
+
+    Parameters
+    ----------
+    prepared : with the pairs before anything moved
+    strides : of the last cycle that was followed, at last home, in which its sides lost what it had rubbed off
+    """
+
+    stops: PathSettings | None = None
+
+    def __init__(self, prepared: Prepared, strides: list[Stride]) -> None:
+        self._nominal = prepared
+        tracks = [Track.of(stride) for stride in strides]
+        self._home = tracks[-1]
+        pairs = zip([self._home, *tracks[:-1]], tracks, strict=True)
+        links = [Link.between(last, track) for last, track in pairs]
+        self._links = [link for link in links if link is not None]
+        self.recur = len(self._links) == len(links) and all(_plain(track) for track in tracks)
+        self._limit = stride_of(prepared)
+        self.prepared = self._home.prepared
+        self.sides: WornSides = self._home.sides
+
+    def begin(self, state: State) -> StrideCycle:
+        """A whole state on the path: behind what its sides have lost."""
+        home, wear = self._home, wear_of(state)
+        gap = home.gaps[1] + home.seen @ wear.depth
+        forces = turned(state.forces, self._nominal.interface, self.prepared.interface)
+        now = path_state(self.prepared, replace(state, point=_between_worn(home, wear.depth), forces=forces))
+        return StrideCycle(now=now, wear=wear, gap=gap)
+
+    def cycle(self, at: PathCycle, number: int) -> FollowedCycle | None:  # noqa: ARG002
+        """A cycle; None where no path leads through it, or bodies have drifted too far."""
+        assert isinstance(at, StrideCycle)
+        n, active = len(self.prepared.interface), self.prepared.paths.active
+        pairs, total, volume = self._home.pairs(at.now, at.gap, 1), None, np.zeros(len(self.sides))
+        for link in self._links:
+            ends = link.next is not self._home
+            gone = self._stride(link, pairs, at.wear.depth, goes=ends)
+            if gone is None or (ends and self._drifted(link.next, gone.pairs)):
+                return None
+            pairs = gone.pairs
+            volume += link.next.wears @ gone.rubs
+            total = gone if total is None else total.and_then(gone)
+        assert total is not None
+        whole = [np.zeros(n) for _ in range(3)]
+        for of_all, own in zip(whole, (total.distance, total.rubs, total.travel), strict=True):
+            of_all[active] = own
+        area = self.prepared.interface.area
+        rubbing = Rubbing(distance=whole[0], wearing=whole[1] / area, travel=whole[2], volume=volume)
+        now = self._home.state(pairs, total.gap, 1)
+        reached = replace(
+            at,
+            now=now,
+            gap=total.gap,
+            wear=rubbed(at.wear, rubbing),
+            spent=at.spent + total.spent,
+            handed=at.handed + total.freed,
+            pivots=at.pivots + total.pivots,
+            residual=max(at.residual, total.residual),
+        )
+        return FollowedCycle(before=at, after=reached, rubbing=rubbing, turns=(at.now, now))
+
+    def worn(self, at: PathCycle, wear: WearState) -> StrideCycle | None:
+        """Sides that lose material at the loads of the moment, to a state of wear; None where no path leads there."""
+        assert isinstance(at, StrideCycle)
+        home = self._home
+        gap = home.gaps[1] + home.seen @ wear.depth
+        segment = self.prepared.paths.follow(at.now, home.loads[1] + self._of_gaps(home, gap), None, lambda _: None)
+        if not segment.followed:
+            return None
+        rubbing = rubbing_of_segment(self.sides, self.prepared.interface, self.prepared.paths, segment)
+        forces = np.array([piece.r[0] for piece in segment.pieces]) * self.prepared.paths.condensed.root
+        parts = np.diff([piece.factor for piece in segment.pieces])
+        freed = float(parts @ (0.5 * (forces[1:] + forces[:-1]) @ (gap - at.gap)))
+        return replace(
+            at,
+            now=segment.end,
+            gap=gap,
+            wear=rubbed(wear, rubbing),
+            energy=at.energy + freed,
+            spent=at.spent + _spent(segment),
+            pivots=at.pivots + segment.pivots,
+            residual=max(at.residual, segment.residual),
+        )
+
+    def state(self, last: State, at: PathCycle, point: LoadPoint) -> State:
+        """The whole state, bodies recovered.
+
+        Parameters
+        ----------
+        last : the last one that was whole
+        at : where the step stands, behind what its sides have lost
+        point : of the loads there, as pairs see gaps before anything moved
+        """
+        assert isinstance(at, StrideCycle)
+        here = recovered(self.prepared, last, _between_worn(self._home, at.wear.depth), at.now)
+        here = replace(here, released=last.released + at.energy + at.handed)
+        here = balanced(self.prepared, last, here, at.spent)
+        forces = turned(here.forces, self.prepared.interface, self._nominal.interface)
+        energy = wear_of(last).energy + at.energy
+        return replace(here, point=point, forces=forces, wear=replace(at.wear, energy=energy))
+
+    def _of_gaps(self, track: Track, gap: Array) -> Array:
+        return track.prepared.paths.condensed.of_gaps(gap)
+
+    def _drifted(self, track: Track, pairs: StridePairs) -> bool:
+        touch = pairs.status != OPEN
+        return bool(np.abs(pairs.tangential - track.tangential)[touch].max(initial=0.0) > _DRIFT * self._limit)
+
+    def _stride(self, link: Link, pairs: StridePairs, depth: Array, *, goes: bool) -> Gone | None:
+        """Hand over, and go to the end of the stride; ``goes``: not only hand over."""
+        if goes:
+            gone = slide(link, pairs, depth, self._limit)
+            if gone is not None:
+                return gone
+        handed = self._handed(link, pairs, depth)
+        return self._followed(link.next, handed, depth) if goes and handed is not None else handed
+
+    def _handed(self, link: Link, pairs: StridePairs, depth: Array) -> Gone | None:
+        """Hand over as `engine.handing_over` does; None where no equilibrium is found."""
+        track = link.next
+        paths, condensed = track.prepared.paths, track.prepared.paths.condensed
+        a, root, law = len(pairs.gap), condensed.root, paths.law
+        moved, forces = link.seen(pairs)
+        moved = moved + condensed.compliance.ravel() * forces.ravel()
+        worn = track.seen @ depth
+        touch, drags = pairs.status != OPEN, pairs.status > STICK
+        gap = np.where(touch, pairs.gap - moved[:a], track.gaps[0] + worn)
+        led = moved[a:] + np.where(drags, AHEAD * self._limit * np.sign(forces[1]), 0.0)
+        offset = np.concatenate([root * gap, -root * led])
+        b = track.loads[0] + condensed.image.load(offset, np.zeros(condensed.image.R.shape[1]))
+        start = law.pieces.coded(pairs.status, forces[0] / root)
+        result = solve_contact(replace(law, b=b), start, settings=paths.settings)
+        if not result.solved:
+            return None
+        r, h = result.r * root, result.h / root
+        idle = (result.state != OPEN) & (r[0] <= 1e-12 * track.prepared.scale.force)
+        r, status = np.where(idle, 0.0, r), np.where(idle, OPEN, result.state)
+        tangential = led + h[1]
+        slipped = np.where(status == OPEN, 0.0, tangential - moved[a:])
+        taken = np.where(drags, -0.5 * (forces[1] + r[1]) * (tangential - moved[a:]), 0.0)
+        bare = replace(
+            pairs,
+            r=r,
+            gap=h[0],
+            tangential=tangential,
+            slip=pairs.slip + slipped,
+            status=status,
+            dissipation=pairs.dissipation + taken,
+        )
+        state = track.state(bare, gap, 0)
+        handed = track.pairs(state, gap, 0)
+        freed = link.set_free(pairs, forces, handed, float(taken.sum()))
+        mean = 0.5 * (track.friction * (forces[0] + r[0]))
+        distance = np.divide(taken, mean, out=np.zeros(a), where=mean > 0.0)
+        rubs = taken if self.sides.by_energy.any() else 0.5 * (forces[0] + r[0]) * distance
+        return Gone(
+            pairs=handed,
+            gap=gap,
+            rubs=rubs,
+            distance=distance,
+            travel=np.abs(tangential - moved[a:]),
+            spent=float(taken.sum()),
+            freed=freed,
+            pivots=1,
+            residual=0.0,
+        )
+
+    def _followed(self, track: Track, begin: Gone, depth: Array) -> Gone | None:
+        """The exact path of the law, from the handing over to the end of a stride."""
+        paths, own = track.prepared.paths, track.prepared.paths.active
+        end: Array = track.gaps[1] + track.seen @ depth
+        state = track.state(begin.pairs, begin.gap, 0)
+        segment = paths.follow(state, track.loads[1] + self._of_gaps(track, end), None, lambda _: None)
+        if not segment.followed:
+            return None
+        rubbing = rubbing_of_segment(track.sides, track.prepared.interface, paths, segment)
+        followed = Gone(
+            pairs=track.pairs(segment.end, end, 1),
+            gap=end,
+            rubs=(rubbing.wearing * track.prepared.interface.area)[own],
+            distance=rubbing.distance[own],
+            travel=rubbing.travel[own],
+            spent=_spent(segment),
+            freed=0.0,
+            pivots=segment.pivots,
+            residual=segment.residual,
+        )
+        return begin.and_then(followed)
+
+
+def _between_worn(track: Track, depth: Array) -> LoadPoint:
+    """Of the loads at the end of a stride, as its pairs see gaps of sides that are worn."""
+    point = track.points[1]
+    return replace(point, gap=point.gap + track.sides.gap @ depth)
+
+
+def _spent(segment: Segment) -> float:
+    h, r = (np.array([getattr(piece, name) for piece in segment.pieces]) for name in ("h", "r"))
+    return float(-0.5 * ((r[1:] + r[:-1]) * np.diff(h, axis=0)).sum())
+
+
+def _plain(track: Track) -> bool:
+    """Whether its pairs obey Coulomb's law alone."""
+    law = track.prepared.paths.law
+    return law.straight and law.pieces.branches == 1 and not law.pieces.starts.any() and not law.guided
