@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Notes on patches of too few pairs, and on overlaps that a mesh has."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -82,6 +84,8 @@ def test_an_overlap_of_the_mesh_is_noted_by_a_solution_too():
 
 
 @pytest.mark.parametrize("gap", [np.zeros(3), [0.0, 1.0], np.array([])])
-def test_one_gap_for_all_pairs(gap):
-    with pytest.raises(sg.InputError, match=r"gap: is .*; expected a number"):
-        sg.Contact("a", "b", gap=gap)
+def test_gaps_that_are_not_one_a_node_are_told(gap):
+    model = press_fit(n_radial=1, n_angular=3)
+    contacts = [replace(contact, gap=gap, interference=0.0) for contact in model.contacts]
+    with pytest.raises(sg.InputError, match=r"contact\[0\]\.gap: has \d values; expected one per node"):
+        sg.solve(replace(model, contacts=contacts))
