@@ -63,7 +63,8 @@ MISTAKES = {
         "[[step]]",
         "[[stepp]]",
         ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, "
-        "solver, body, support, foundation, load, contact, obstacle, rigid_body, equation, step",
+        "solver, body, support, foundation, load, contact, obstacle, rigid_body, equation, "
+        "cyclic_symmetry, bolt, step",
     ),
     "unknown boundary": (
         'on = "axis"',

@@ -69,7 +69,10 @@ IN_THE_MODEL = [
         lambda: Contact("bottom", FLOOR, friction="rough"),
         "friction: is 'rough'; expected a number >= 0, 'stick' or 'tied'",
     ),
-    (lambda: Contact("bottom", FLOOR, gap="none"), "gap: is 'none'; expected 'geometry', 'zero' or a number"),
+    (
+        lambda: Contact("bottom", FLOOR, gap="none"),
+        "gap: is 'none'; expected 'geometry', 'zero', a number or a formula",
+    ),
     (
         lambda: Contact("bottom", FLOOR, normal_compliance=-1.0),
         "normal_compliance: is -1.0; expected a number >= 0",
@@ -87,11 +90,11 @@ IN_THE_MODEL = [
     (lambda: Support("", u=(0, 0)), "on: is ''; expected a name (text)"),
     (
         lambda: Load("top"),
-        "has none of them; expected exactly one of force, nodal_forces, traction, pressure, body_force",
+        "has none of them; expected exactly one of force, nodal_forces, traction, pressure, bearing, body_force",
     ),
     (
         lambda: Load("top", force=(0, 1), pressure=1.0),
-        "has force and pressure; expected exactly one of force, nodal_forces, traction, pressure, body_force",
+        "has force and pressure; expected exactly one of force, nodal_forces, traction, pressure, bearing, body_force",
     ),
     (
         lambda: Load("top", pressure=1.0, spread="displacement"),

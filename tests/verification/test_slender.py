@@ -66,7 +66,7 @@ def leaf_springs(length: float, force: float, cells: str, formulation: str) -> s
     )
 
 
-@pytest.mark.parametrize("length", [70.0, 200.0, 400.0, 1200.0])
+@pytest.mark.parametrize("length", [70.0, 200.0, 400.0, 1000.0])
 @pytest.mark.parametrize(("cells", "formulation"), [("quad8", "standard"), ("quad", "incompatible")])
 def test_two_leaf_springs_share_a_load_at_the_tip(length, cells, formulation):
     """Each bends by half the load: friction between them is far below that of a common section.

@@ -64,7 +64,7 @@ def step_result(
     held = prepared.frames.about_axes(held, state.displacement)
     loads, _ = applied(with_loads_in_space(prepared, followed.turned_at), state.point)
     model = prepared.model
-    reactions = _reactions(prepared, state, held)
+    reactions, bolts = _reactions(prepared, state, held), {bolt.label for bolt in model.bolts}
     springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
     return StepResult(
         name=stage.title,
@@ -81,7 +81,7 @@ def step_result(
             body.name: _rigid_result(prepared, j, state, loads + held)
             for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))
         },
-        reactions=reactions,
+        reactions={name: force for name, force in reactions.items() if name not in bolts},
         bolts=bolt_results(model, prepared.space.at_nodes(state.displacement), state.point.factors, reactions),
         strain_energy=stored - layers - springs + heat(state),
         interface_energy=layers + springs,

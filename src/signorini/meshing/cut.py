@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
-from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.checks import vector
@@ -236,6 +234,9 @@ def _above(
     where: Where,
 ) -> BoolArray:
     """(m,) Cells whose nodes on the section become new ones: those that hang together with the cells above it."""
+    import scipy.sparse as sp  # takes longer to load than a deck without bolts to read
+    from scipy.sparse.csgraph import connected_components
+
     on = np.zeros(len(mesh.points), bool)
     on[nodes] = True
     near = np.concatenate([on[given].any(axis=1) for given in mesh.cells.values()])
