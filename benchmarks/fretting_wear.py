@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """McColl, Ding and Leen's cylinder on a flat, 18,000 cycles of fretting wear: one by one, or in explicit jumps.
 
-python -m benchmarks.fretting_wear every out.json [cycles [spacing]]     (or jumps)
+python -m benchmarks.fretting_wear every every.json [cycles [spacing]]     (or jumps)
+python -m benchmarks.fretting_wear page every.json jumps.json              (writes docs/wear.md and its picture)
 """
 
 from __future__ import annotations
@@ -15,10 +16,20 @@ from typing import Any
 import numpy as np
 
 import signorini as sg
-from signorini.gallery.wearing import FRICTION, WEAR, fretting, rubbed_cylinder
+from benchmarks import page
+from signorini.gallery.wearing import FORCE, FRICTION, WEAR, fretting, rubbed_cylinder
 
 CYCLES, STROKE, SPACING = 18_000, 0.025, 0.01
 SHOWN = (1000, 5000, 10_000, 18_000)
+_HEAD = (
+    "cycles",
+    "flat, um",
+    "published, um",
+    "difference, %",
+    "jumps of 100, um",
+    "error of jumps, %",
+    "worn area, 1e-3 mm2",
+)
 
 
 def model(way: str, cycles: int, spacing: float) -> tuple[sg.Model, int]:
@@ -84,8 +95,74 @@ def measure(way: str, cycles: int = CYCLES, spacing: float = SPACING) -> dict[st
     }
 
 
+PUBLISHED = {1000: 0.3784, 5000: 1.1311, 10_000: 1.8145, 18_000: 2.7130}
+"""Depths of the flat, um, of LevelSetWear (level sets, 180 jumps of 100 cycles, 20 573 CPU s for 9882 nodes)."""
+
+_DOCS = Path(__file__).parent.parent / "docs"
+
+
+def write_page(every: dict[str, Any], jumps: dict[str, Any]) -> None:
+    """Table and picture of both ways into docs/wear.md.
+
+    Parameters
+    ----------
+    every, jumps : what `measure` found
+    """
+    rows = []
+    for cycle, published in PUBLISHED.items():
+        one, other = (1e3 * max(found["shown"][str(cycle)]["flat"]) for found in (every, jumps))
+        volume = every["shown"][str(cycle)]["volume"]
+        rows.append((
+            f"{cycle}", f"{one:.4f}", f"{published:.4f}", f"{100.0 * (one / published - 1.0):+.2f}",
+            f"{other:.4f}", f"{100.0 * (other / one - 1.0):+.2f}", f"{1e3 * max(volume):.5f}",
+        ))  # fmt: skip
+    nominal = WEAR.mortar * every["cycles"] * 4.0 * STROKE * FORCE
+    lost = max(every["shown"][str(CYCLES)]["volume"]) / nominal
+    worst, defect = every["residual"], every["defect"]
+    text = (
+        f"{page.table(_HEAD, rows)}\n\nEvery cycle: {every['seconds']:.0f} CPU s, {every['nodes']} nodes, worst "
+        f"certificate of its steps {worst:.1e}, energy defect over work {defect:.0e}; jumps of 100: "
+        f"{jumps['seconds']:.0f} CPU s. The flat has lost {lost:.3f} of k P 4 s N; the rest of the stroke is that of "
+        "the bodies, which strain. Published: level sets, 180 jumps of 100, 20 573 CPU s."
+    )
+    page.write("fretting wear", text, _DOCS / "wear.md")
+    _draw(every, jumps, _DOCS / "figures" / "fretting_wear.png")
+
+
+def _draw(every: dict[str, Any], jumps: dict[str, Any], path: Path) -> None:
+    """Profiles, pressures, depth over the cycles and what jumps cost."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    from matplotlib import pyplot as plt
+
+    figure, ((profile, pressure), (depth, cost)) = plt.subplots(2, 2, figsize=(11.0, 7.5), layout="constrained")
+    for shade, cycle in zip(np.linspace(0.85, 0.15, len(SHOWN)), SHOWN, strict=True):
+        found, color = every["shown"][str(cycle)], plt.get_cmap("viridis")(shade)
+        profile.plot(found["x"], -1e3 * np.array(found["flat"]), color=color, label=f"{cycle} cycles")
+        pressure.plot(found["pad_x"], found["pressure"], color=color, label=f"{cycle} cycles")
+    profile.set(xlabel="x, mm", ylabel="height, µm", title="profile of the flat")
+    pressure.set(xlabel="x, mm", ylabel="pressure, MPa", title="pressure where the stroke turns")
+    cycles = [int(key) for key in every["shown"] if int(key) > 1]
+    depths = [1e3 * max(every["shown"][str(cycle)]["flat"]) for cycle in cycles]
+    jumped = [1e3 * max(jumps["shown"][str(cycle)]["flat"]) for cycle in cycles]
+    depth.plot(cycles, depths, "o-", label="every cycle")
+    depth.plot(list(PUBLISHED), list(PUBLISHED.values()), "kx", ms=9, label="level sets (published)")
+    depth.set(xlabel="cycles", ylabel="depth of the flat, µm", title="deepest place")
+    cost.loglog(cycles, [abs(other / one - 1.0) for one, other in zip(depths, jumped, strict=True)], "s-", color="C3")
+    cost.set(xlabel="cycles", ylabel="relative error of the depth", title="what jumps of 100 cycles cost")
+    for axes in (profile, pressure, depth):
+        axes.legend(frameon=False)
+    for axes in (profile, pressure, depth, cost):
+        axes.grid(alpha=0.3)
+    figure.savefig(path, dpi=110)
+
+
 def main() -> None:
-    """Measure a way into a file."""
+    """Measure a way into a file, or write the page from two of them."""
+    if sys.argv[1] == "page":
+        write_page(*(json.loads(Path(name).read_text()) for name in sys.argv[2:4]))
+        return
     way, path = sys.argv[1], Path(sys.argv[2])
     cycles = int(sys.argv[3]) if len(sys.argv) > 3 else CYCLES
     spacing = float(sys.argv[4]) if len(sys.argv) > 4 else SPACING
