@@ -54,6 +54,7 @@ def test_cubes_in_space() -> None:
         assert set(row["phases"]) == (phases if row["default"] else set())
 
 
+@pytest.mark.slow
 def test_contact_seconds_leave_nothing_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """The certificate is in no phase of the clock, and is still paid for."""
 

@@ -39,6 +39,7 @@ def test_arc_from_the_pole_up() -> None:
     assert cylinder.arc_lengths.sum() == pytest.approx(np.linalg.norm(np.diff(arc, axis=0), axis=1).sum())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("peer", "tolerance"), [("run_getfem", 1e-6), ("run_calculix", 2e-2)])
 @pytest.mark.parametrize("friction", [0.0, 0.4])
 def test_peers_agree(peer: str, tolerance: float, friction: float) -> None:

@@ -35,6 +35,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["contact", "stress", "mesh", "history"])
 def test_pictures_are_written(what: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(folder), "--what", what]) == 0

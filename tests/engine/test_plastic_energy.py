@@ -50,6 +50,7 @@ def test_energies_of_a_body_balance(law, kind):
     assert sum(step.plastic.dissipation for step in solution.steps) > 0.1 * work
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["plane strain", "axisymmetric", "plane stress"])
 @pytest.mark.parametrize("formulation", [None, "incompatible"])
 def test_energies_balance_where_bodies_are_heated(formulation, kind):

@@ -357,6 +357,7 @@ CYCLE = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("through", "formulation"),
     [("memory", None), ("state", None), ("archive", None), ("memory", "incompatible"), ("archive", "incompatible")],

@@ -68,6 +68,7 @@ def of_contact(instant: sg.Instant) -> tuple[float, float]:
     return float(contact.pressure @ contact.area), float(contact.traction @ contact.area)
 
 
+@pytest.mark.slow
 def test_a_dragged_cylinder_keeps_hertz_pressure_and_coulombs_force(monkeypatch: pytest.MonkeyPatch) -> None:
     """Half a half-width and more of sliding: pressure 1 % of Hertz's, Q = mu P to rounding, energy to rounding."""
     counted = []
@@ -102,6 +103,7 @@ def test_short_slips_are_those_of_pairs_that_stay(nonmortar: str) -> None:
     assert spent[1] == pytest.approx(spent[0], rel=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nonmortar", ["top.bottom", "bed.top"])
 def test_a_block_is_pushed_over_the_edge_of_its_bed(nonmortar: str) -> None:
     """Nine tenths of its length beyond the edge all is borne by what is left, and the force of friction stays."""
@@ -118,6 +120,7 @@ def test_a_block_is_pushed_over_the_edge_of_its_bed(nonmortar: str) -> None:
     assert solution.steps[-1].certificate.passed
 
 
+@pytest.mark.slow
 def test_there_and_back_again_leaves_the_block_where_it_was() -> None:
     """Friction turns round; what is stored and set free in the end is small beside what friction took."""
     solution = sg.solve(block_on_bed(0.7, back=True))
@@ -148,6 +151,7 @@ def test_a_wheel_that_is_free_to_turn_rolls() -> None:
     assert float(contact.points[:, 0] @ (contact.pressure * contact.area)) / normal == pytest.approx(0.6, abs=0.01)
 
 
+@pytest.mark.slow
 def test_a_history_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
     """From an archive, too."""
     model = block_on_bed(0.9)

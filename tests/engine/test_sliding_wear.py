@@ -65,6 +65,7 @@ def rubbed(solution: sg.Solution, friction: float) -> float:
     return float(sum(step.dissipation for step in solution.steps)) / friction
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "friction", "rounding"),
     [(block_on_bed(), 0.3, 1e-12), (hub_on_shaft(), 0.2, 1e-4), (block_on_bed("3d", stroke=0.05), 0.3, 1e-3)],
@@ -84,6 +85,7 @@ def test_worn_volume_is_pressure_times_distance_of_both_sides(
     assert abs(solution.last.energy_defect) <= rounding * solution.last.work
 
 
+@pytest.mark.slow
 def test_the_bed_is_worn_where_the_block_has_been() -> None:
     """Beyond the reach of the block and its stroke nothing is worn."""
     solution = sg.solve(block_on_bed())
@@ -105,6 +107,7 @@ def test_a_driven_wheel_with_creepage_wears_its_bed() -> None:
     assert 0.0 < wear.volume.sum() < 2e-3 * 1e-6 * 10.0 * way
 
 
+@pytest.mark.slow
 def test_sides_that_slid_and_wore_go_on_to_the_last_bit(tmp_path: Path) -> None:
     """From a file, in the step behind."""
     model = block_on_bed(stroke=0.1)

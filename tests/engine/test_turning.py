@@ -61,6 +61,7 @@ def roller(degrees: float = 0.0, *, angle: float = -0.05, cells: int = 48) -> sg
     )
 
 
+@pytest.mark.slow
 def test_a_press_fit_that_turns_keeps_what_it_bears() -> None:
     """Pressures, tractions, energy and stresses turn along, whatever the angle; nothing is set free, nothing rubs."""
     found = [sg.solve(shrunk_ring(degrees)) for degrees in (20.0, 90.0)]
@@ -86,6 +87,7 @@ def test_a_press_fit_that_turns_keeps_what_it_bears() -> None:
     assert np.abs(R @ tensor @ R.T - after).max() < 1e-5 * other.von_mises.max()
 
 
+@pytest.mark.slow
 def test_a_meshed_ring_rolls() -> None:
     """Without slip: as far as its facets are long; all of it at an angle to the axes does the same to rounding."""
     found = {degrees: sg.solve(roller(degrees, angle=-0.02)) for degrees in (0.0, 30.0, 90.0)}

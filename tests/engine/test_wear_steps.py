@@ -152,6 +152,7 @@ def test_a_block_keeps_the_books_of_all_its_cycles():
     assert [cycle.number for cycle in step.cycles] == [1, 2, 5, 10, 20, 30]
 
 
+@pytest.mark.slow
 def test_automatic_blocks_keep_to_their_tolerance():
     every, automatic = (
         sg.solve(rubbed_cylinder(to_and_fro(60, **way), wear=times_as_fast(20), spacing=COARSE)).end.state.wear
@@ -174,6 +175,7 @@ def partial_slip(cycles, *, share, wear, **block):
     return solution.end.state.wear.depth, int(re.search("for which ([0-9]+) cycles", note)[1])
 
 
+@pytest.mark.slow
 def test_blocks_of_partial_slip_settle_in_a_few_cycles():
     short, cost = partial_slip(21, share=0.9, wear=0.2, block=1)
     assert cost < 2.5 * 21
@@ -182,6 +184,7 @@ def test_blocks_of_partial_slip_settle_in_a_few_cycles():
     assert np.abs(long - short).max() < 0.05 * short.max()
 
 
+@pytest.mark.slow
 def test_where_no_block_is_found_cycles_go_by_themselves():
     """As much wear in a cycle as in tens of them: pairs at the edge of what sticks double their wear in each."""
     _, cost = partial_slip(30, share=0.7, wear=10.0, block=10)

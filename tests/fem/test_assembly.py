@@ -65,6 +65,7 @@ def same(K, reference, tolerance=1e-14):
     return abs(K - reference).max() <= tolerance * abs(reference).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_agrees_with_scikit_fem(name):
     mesh, element = ELEMENTS[name]

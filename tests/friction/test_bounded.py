@@ -114,6 +114,7 @@ def test_a_limit_is_what_the_loads_pull_away_at():
             np.testing.assert_allclose(pull.motion[4:], 1.0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_hard_set_with_limits_and_adhesion_is_answered():
     for case in map(hard_problem, range(20)):
         plain, rng = solve_contact(case.first), np.random.default_rng(case.first.pairs)

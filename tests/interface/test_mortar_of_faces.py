@@ -195,6 +195,7 @@ def test_chords_of_surfaces_that_match_leave_no_gap(height, kinds):
     assert np.abs(gap).max() < 0.1 * np.abs(faces).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kinds", [(6, 6), (8, 8), (9, 9), (8, 6)])
 @pytest.mark.parametrize("jiggle", [0.0, 0.4])
 def test_quadratic_faces_on_one_sphere_leave_no_gap(kinds, jiggle):

@@ -122,6 +122,7 @@ def test_a_large_z_hides_no_row_that_misses():
     assert not lcp.solve([[1.0, -1.0], [-1.0, 1.0]], [-1.0, 1.0 - 5e-6]).solved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, 600, 50))
 def test_singular_problems_nearly_without_solution(first):
     """What is solved misses no row by 1e-6 of q, exactly; what is not has no solution."""

@@ -84,9 +84,12 @@ class Results:
         self.fields = meshio.read(folder / "solution.vtu")
 
 
+_LONG = ("ball_on_block", "block_over_edge", "bolted_bracket", "bolted_joint", "fretting", "indentation", "wear")
+
+
 def example(path: Path) -> Any:
     """A deck as a parameter; those that take a second are slow."""
-    takes_long = path.stem in ("indentation", "bolted_bracket", "fretting", "ball_on_block")
+    takes_long = path.stem in _LONG
     return pytest.param(path, id=path.stem, marks=[pytest.mark.slow] if takes_long else [])
 
 

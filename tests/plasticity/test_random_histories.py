@@ -17,6 +17,7 @@ from benchmarks.independent_history import Acts, Follower
 from benchmarks.plastic_models import in_words, make
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "kinds"),
     [

@@ -46,6 +46,7 @@ def rolled(ratio: float, plastic: sg.Plastic | None, *, ways: tuple[float, ...])
     )
 
 
+@pytest.mark.slow
 def test_a_wheel_leaves_a_track_that_the_next_pass_adds_less_to() -> None:
     """Above first yield and below shakedown; every stride is certified, forces balance, energies close."""
     model = rolled(3.7, sg.Plastic(float(np.sqrt(3.0))), ways=(-0.5, 0.5, -0.5))

@@ -98,6 +98,7 @@ SOFTENED = sg.Plastic([(0.0, 235.0, 0.0), (0.0, 150.0, 200.0), (0.0, 260.0, 300.
 COLD, STEEP = sg.Step(scale={"pull": 1.0, "heat": 0.0}), sg.Step(scale={"pull": 1.0, "heat": 1.0})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("stress", "temperature", "steps", "limit"),
     [

@@ -72,6 +72,7 @@ PRESS_PULL_RELEASE = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "model",
     [

@@ -17,6 +17,7 @@ from benchmarks import adversary, independent
 ENUMERATED = pytest.param(6, marks=pytest.mark.slow)  # 4096 linear programs prove that nothing goes on
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [*range(6), ENUMERATED, *range(7, 40)])
 def test_answers_proofs_and_restarts(seed):
     case = adversary.make(seed)

@@ -35,6 +35,7 @@ def compliant(model, E_n, E_tau):
     return replace(model, contacts=contacts)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tangential", [1.0, 0.3, 20.0])
 @pytest.mark.parametrize("factor", [1.0, 10.0, 100.0, 1e3])
 @pytest.mark.parametrize("name", MODELS)

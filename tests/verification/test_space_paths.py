@@ -42,6 +42,7 @@ def slab(facets, law, steps):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("facets", "law"), [(8, {}), (0, {}), (8, {"shear_limit": 3.0}), (0, ADHESIVE)])
 def test_a_slab_goes_the_exact_path_of_plane_strain(facets, law):
     """With a corner along the loads the polygon is the law of the plane; a circle does not turn friction here."""

@@ -53,6 +53,7 @@ def deck(folder: Path, motion: str) -> Path:
 CASES = {"slides": ("201,1,1,.3\n201,2,2,.1", 6e-4, 0.25), "turns": ("202,3,3,.5", 3e-4, 0.08)}
 
 
+@pytest.mark.slow
 @needs_ccx
 @pytest.mark.parametrize("case", CASES)
 def test_bodies_that_slide_and_turn_are_where_calculix_has_them(tmp_path: Path, case: str) -> None:

@@ -34,6 +34,7 @@ STEPS = {
 NORMALS = {"none": "", "outwards": "1.,0.,0.\n", "into the elements": "-1.,0.,0.\n", "inclined": "1.,.2,0.\n"}
 
 
+@pytest.mark.slow
 @needs_ccx
 @pytest.mark.parametrize("normal", NORMALS)
 @pytest.mark.parametrize("steps", STEPS)

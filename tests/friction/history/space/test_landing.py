@@ -78,6 +78,7 @@ def test_what_lies_within_rounding_is_no_proof(facets, angle):
             assert f"lacks {none.margin:.2g} of the data" in none.proof
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("f_t", [2.02, 3.0, 5.0])
 @pytest.mark.parametrize("part", [0.002, 0.03, 0.3, 0.97])
 @pytest.mark.parametrize("number", [1, 4, 16])
@@ -152,6 +153,7 @@ def stiff_in_space(seed, pairs):
 LANDS = [(1, 4, 4.0, 8), (1, 4, 4.0, 13), (2, 8, 4.0, 6), (5, 8, 3.0, 0), (1, 0, 3.0, 13)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("pairs", "facets", "mu", "seed"), LANDS)
 def test_landings_are_equilibria_where_less_is_stored_than_the_loads_gave(pairs, facets, mu, seed):
     S = stiff_in_space(seed, pairs)
