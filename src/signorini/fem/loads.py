@@ -53,7 +53,6 @@ def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
         _check_axis(model, nodes, forces, where)
         return forces.ravel()
     side = boundary(space, str(load.on), (*where, "on"))
-    areas = [facet_areas(model, block)[..., None] for block in side.blocks]
     if load.pressure is not None:
         pressures = on_facets(load.pressure, space, side, (*where, "pressure"))
         parts = [
@@ -62,11 +61,12 @@ def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
         ]
     elif load.bearing is not None:
         parts = _bearing(model, load, side, (*where, "bearing"))
-    elif load.force is not None:
-        total = sum(float(area.sum()) for area in areas)
-        parts = [area * (_given(load.force) / total) for area in areas]
     else:
-        tractions = _tractions(space, load, side, (*where, "traction"))
+        areas = [facet_areas(model, block)[..., None] for block in side.blocks]
+        if load.force is not None:
+            tractions = [_given(load.force) / sum(float(area.sum()) for area in areas)] * len(areas)
+        else:
+            tractions = _tractions(space, load, side, (*where, "traction"))
         parts = [area * traction for area, traction in zip(areas, tractions, strict=True)]
     forces[side.nodes] = side.nodal(parts)
     return forces.ravel()
