@@ -21,7 +21,7 @@ from signorini.solution.history import History
 if TYPE_CHECKING:
     import h5py
 
-_FORMAT = "signorini archive 5"
+_FORMAT, _OLDER = "signorini archive 6", ("signorini archive 5", "signorini archive 4")
 _STRUCTURE, _END = "structure", "end"  # the text, and what is another one after every step
 _SEAL_SIZE = 512  # bytes: the smallest user block that HDF5 has
 _MIN_COMPRESSED = 65536  # bytes: smaller arrays are not worth compressing
@@ -83,14 +83,14 @@ class GrowingArchive:
 
 def _put_seal(path: Path) -> None:
     with path.open("r+b") as file:
-        seal = _seal(file)
+        seal = _seal(file, _FORMAT)
         file.seek(0)
         file.write(seal.ljust(_SEAL_SIZE))
 
 
-def _seal(file: IO[bytes]) -> bytes:
-    """A digest of what follows the user block, in letters."""
-    found = hashlib.blake2b(_FORMAT.encode(), digest_size=32)
+def _seal(file: IO[bytes], format_name: str) -> bytes:
+    """A digest of the name of the format and of what follows the user block, in letters."""
+    found = hashlib.blake2b(format_name.encode(), digest_size=32)
     file.seek(_SEAL_SIZE)
     for part in iter(lambda: file.read(2**24), b""):
         found.update(part)
@@ -128,7 +128,11 @@ def read_archive(path: Path) -> History:
     if not path.is_file():
         raise InputError(f"there is no file '{path}'; expected an archive that a run has written")
     with path.open("rb") as sealed_file:  # damage can hang HDF5 itself, which must not see it
-        if sealed_file.read(_SEAL_SIZE).rstrip() != _seal(sealed_file):
+        seal = sealed_file.read(_SEAL_SIZE).rstrip()
+        if seal != _seal(sealed_file, _FORMAT):
+            for older in _OLDER:
+                if seal == _seal(sealed_file, older):
+                    raise InputError(f"'{path}' is '{older}'; expected '{_FORMAT}', by running the deck again")
             raise InputError(f"'{path}' is no archive, damaged, or of another version; expected '{_FORMAT}'")
     check_hdf5(path)
     try:

@@ -14,7 +14,7 @@ from signorini.output.atomic_write import atomic_write
 from signorini.output.dataclasses_json import AnyArray, from_plain, sealed, to_plain, unsealed
 from signorini.solution.checkpoint import Checkpoint
 
-_FORMAT = "signorini state 5"
+_FORMAT = "signorini state 6"
 
 _UNREADABLE = (
     *(OSError, EOFError, ValueError, LookupError, TypeError, RuntimeError, MemoryError),
