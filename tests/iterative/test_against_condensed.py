@@ -140,3 +140,23 @@ def test_gross_sliding_is_proved_where_contact_is_iterated_in_space():
     with pytest.raises(sg.SolveFailed, match=r"no equilibrium beyond 62\.5%") as caught:
         sg.solve(model, backend="iterative")
     assert caught.value.status == "no_equilibrium"
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.3])
+def test_bodies_that_friction_before_the_load_does_not_hold(friction):
+    """Pressed with a twentieth first: friction of the load before holds as much of a push that needs nearly all."""
+    upper, lower = sg.rectangle(width=1.0, height=1.0, nx=4, ny=2), sg.rectangle(x=[-0.5, 0.4, 1.5], y=[-1.0, 0.0])
+    model = sg.Model(
+        join({"upper": upper, "lower": lower}),
+        kind="plane stress",
+        bodies=[sg.Body(name, sg.Elastic(E=200.0, nu=0.3)) for name in ("upper", "lower")],
+        supports=[sg.Support("lower.bottom", u=(0.0, 0.0))],
+        loads=[
+            sg.Load("upper.top", force=(0.0, -2.0), name="press"),
+            sg.Load("upper.bottom", force=(0.97 * 2.0 * friction, 0.0), name="push"),
+        ],
+        contacts=[sg.Contact("upper.bottom", "lower.top", friction=friction)],
+        steps=[sg.Step(scale={"press": p, "push": q}, increments=1) for p, q in ((0.05, 0.0), (1.0, 1.0))],
+    )
+    one, two = sg.solve(model), sg.solve(model, backend="iterative")
+    np.testing.assert_allclose(two.last.displacement, one.last.displacement, atol=1e-7)

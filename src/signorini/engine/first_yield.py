@@ -169,7 +169,8 @@ def _by_power(one: tuple[float, float], two: tuple[float, float], aim: float) ->
         if min(grown, stretched) <= 0.0 or grown == 1.0:
             return None
         exponent = np.log(stretched) / np.log(grown)
-    return float(two[0] * ((1.0 + aim) / (1.0 + two[1])) ** exponent)
+    with np.errstate(over="ignore"):  # where stress hardly changes: beyond every bracket
+        return float(two[0] * np.float64((1.0 + aim) / (1.0 + two[1])) ** exponent)
 
 
 def _below_yield(prepared: Prepared, followed: FollowedPart, note: str) -> FollowedPart:

@@ -138,12 +138,17 @@ class _Rounds:
             if left <= _EQUILIBRIUM_SHARE * float(np.linalg.norm(lag)) or left <= 0.1 * load.tolerance * load.force:
                 return
             step, count = self._step(g)
-            self._go(step, forces)
+            whole = self._go(step, forces)
             self.iterations.append(count)
+            if not whole:
+                return
 
     def update(self) -> float:
         """Take over forces and bounds; the largest residual of what is left."""
         bodies, load = self.bodies, self.load
+        # steps that went far and back again have left their rounding in the sums
+        self.internal, self.relative = bodies.K @ self.z, self._seen(self.z) + load.offset
+        self.y = self._trial()
         forces = self._project(self.y)
         g = load.f + self.transposed @ forces.ravel() - self.internal
         balance = np.abs(np.concatenate([g, bodies.rigid.T @ g])).max(initial=0.0)
@@ -219,8 +224,15 @@ class _Rounds:
             self.cycle = pairs, bodies.preconditioner.under(springs)
         return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, _NEWTON_RESIDUAL)
 
-    def _go(self, step: Array, forces: Array) -> None:
-        """Along a step to where the energy is least: a convex function whose slope is found from the pairs alone."""
+    def _go(self, step: Array, forces: Array) -> bool:
+        """Along a step to where the energy is least: a convex function whose slope is found from the pairs alone.
+
+        Where friction of the bounds of this round does not hold floating bodies it has no minimum: one step is enough.
+
+        Returns
+        -------
+        Whether this round goes on.
+        """
         bodies, load = self.bodies, self.load
         internal, across = bodies.K @ step, self._seen(step)
         stiff, rest = float(step @ internal), float(step @ (load.f - self.internal))
@@ -230,10 +242,13 @@ class _Rounds:
             return rest - t * stiff + float((across * self._project(y)).sum())
 
         t = _root(downhill, rest + float((across * forces).sum()))
+        slides = t > 1.0 and load.floating and bool(forces.any())
+        t = 1.0 if slides else t
         self.z += t * step
         self.internal = self.internal + t * internal
         self.relative = self.relative + t * across
         self.y = self._trial()
+        return not slides
 
 
 def _root(downhill: Callable[[float], float], start: float) -> float:
