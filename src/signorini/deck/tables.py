@@ -136,9 +136,15 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
 
 def _varied(entry: dict[str, Any], where: Where, reach: Reach, dimension: int) -> dict[str, Any]:
     """The table of a support, a load or a contact with what varies in it as the model takes it."""
-    single = {key: deck_value(entry[key], (*where, key), reach, dimension) for key in _VARYING if key in entry}
+    single = {
+        key: deck_value(entry[key], (*where, key), reach, dimension)
+        for key in _VARYING
+        if isinstance(entry.get(key), dict)
+    }
     several = {
-        key: deck_values(entry[key], (*where, key), reach, dimension) for key in ("u", "traction") if key in entry
+        key: deck_values(entry[key], (*where, key), reach, dimension)
+        for key in ("u", "traction")
+        if isinstance(entry.get(key), list) and any(isinstance(part, dict | list) for part in entry[key])
     }
     return entry | single | several
 

@@ -16,7 +16,7 @@ _FILE_KEYS = ("file", "column", "start")
 
 
 def deck_value(entry: Any, where: Where, reach: Reach, dimension: int) -> Any:
-    """A value as the model takes it: of a text a formula, of a table what it holds, anything else as it is.
+    """A table as the model takes it; anything else as it is.
 
     Tables: ``{ x = [...], value = [...] }`` along a coordinate; ``{ s = [...], value = [...], start = [x, y] }`` over
     arc length; ``{ node = [...], value = [...] }``; ``{ file = "name.csv", column = "p" }``.
@@ -48,18 +48,16 @@ def deck_value(entry: Any, where: Where, reach: Reach, dimension: int) -> Any:
     return make(Along, {"axis": axes[0], "at": entry[axes[0]], "values": entry["value"]}, where)
 
 
-def deck_values(entries: Any, where: Where, reach: Reach, dimension: int) -> Any:
+def deck_values(entries: list[Any], where: Where, reach: Reach, dimension: int) -> Any:
     """Values of several directions, see :func:`deck_value`.
 
     Parameters
     ----------
-    entries : a list, or what is none
+    entries : a list
     where : its path in the deck
     reach : files that they may name
     dimension : of the bodies
     """
-    if not isinstance(entries, list):
-        return entries
     parts = [deck_value(part, (*where, i), reach, dimension) for i, part in enumerate(entries)]
     return [
         make(NodeValues, {"values": part}, (*where, i)) if isinstance(part, list) else part

@@ -28,7 +28,7 @@ def with_bolts(model: Model) -> Model:
         If the mesh is not cut there, or a bolt has the name of another load or support.
     """
     taken = {load.label for load in model.loads} | {support.label for support in model.supports}
-    if not model.bolts or all(bolt.label in taken for bolt in model.bolts):
+    if all(bolt.label in taken for bolt in model.bolts):
         return model
     equations, loads, supports = list(model.equations), list(model.loads), list(model.supports)
     for i, bolt in enumerate(model.bolts):

@@ -9,7 +9,6 @@ from signorini.arrays import Array, BoolArray
 from signorini.engine.examine import Examined
 from signorini.fem.rigid import free_motions
 from signorini.interface.interface import Interface
-from signorini.interface.sliding import slides
 from signorini.solution.scale import Loading, data_scale
 
 _NEEDED = 0.5  # of the loads: pairs chosen for these leave room for bodies that give twice as much
@@ -35,7 +34,7 @@ def candidate_pairs(examined: Examined, loading: Loading, before: BoolArray | No
     before : (n,) those of the steps before it, which stay and are given back where they are enough
     """
     # flow moves bodies farther than loads compress them, and far sliding what is opposite what
-    if (examined.model.yields and examined.space.dimension == 2) or slides(examined.model):
+    if (examined.model.yields and examined.space.dimension == 2) or examined.model.slides:
         return np.ones(len(examined.interface), np.bool_)
     if examined.model.wears and examined.space.dimension == 2:  # what is worn lets others touch
         return np.ones(len(examined.interface), np.bool_)

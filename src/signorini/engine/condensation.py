@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy.sparse as sp
 
 from signorini.arrays import BoolArray
 from signorini.clock import Clock
@@ -13,9 +14,19 @@ from signorini.engine.examine import Examined
 from signorini.errors import InputError
 from signorini.fem.rigid import hinged
 from signorini.interface.active import FreeBodies
+from signorini.interface.sliding import sliding_unknowns
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import NotPositiveDefinite
+
+
+def free_bodies(examined: Examined, K: sp.csr_array) -> FreeBodies:
+    """The bodies and their pairs in terms of the free displacements, K (z, z) their stiffness."""
+    space, constraints, T = examined.space, examined.constraints, examined.constraints.transform
+    bodies = FreeBodies(K, sp.csr_array(examined.interface.B @ T), constraints.nodes, space.places)
+    if not examined.model.slides:
+        return bodies
+    return bodies._replace(kept=sliding_unknowns(space, examined.model, examined.frames, T))
 
 
 def condense_bodies(

@@ -53,7 +53,9 @@ def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -
 
 def stored_energy(prepared: Prepared, state: State) -> float:
     """Elastic, in the bodies, elastic foundations and compliant interfaces."""
-    u = prepared.frames.elastic(state.displacement)  # rigid motions store nothing but their rounding
+    u = state.displacement
+    if prepared.turns:
+        u = prepared.frames.elastic(u)  # rigid motions store nothing but their rounding
     strain = float(u @ (prepared.K @ u)) if u.any() else 0.0
     beyond = 0.0
     if prepared.yielding is not None and state.plastic is not None:

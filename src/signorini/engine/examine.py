@@ -55,6 +55,11 @@ class Examined:
     loading: Loading
     scale: Scale
 
+    @property
+    def turns(self) -> bool:
+        """Whether any body may turn by any angle."""
+        return self.model.slides and bool(self.frames)
+
 
 def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     """Put a model on its mesh and check what can be checked without solving.
@@ -69,7 +74,8 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         If something in the model does not fit the mesh or the start, a load never acts, two contacts are between the
         same sides, or a body can move freely: it is named, with its motion.
     """
-    model = with_bolts(model)
+    if model.bolts:
+        model = with_bolts(model)
     refuse_locking(model)
     factors = {} if start is None else start.state.point.factors
     before = Standing() if start is None else start.standing
@@ -77,11 +83,13 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     schedule = list(stages(model, factors=factors, before=before))
     refuse_same_contacts(model, schedule)
     carriers = len(model.obstacles) + len(model.rigid_bodies)
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked_nodes(model))
+    linked = linked_nodes(model) if model.couples else None
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked)
     first, sometimes = schedule[0].released, schedule[-1].loosened
     constraints = make_constraints(space, model, without=first)
     always = make_constraints(space, model, without=sometimes) if sometimes != first else constraints
-    refuse_contact_across(space, model)
+    if model.cyclic_symmetries:
+        refuse_contact_across(space, model)
     loads = nodal_loads(space, model)
     interface = make_interface(space, model, always)
     if start is not None:
@@ -98,25 +106,24 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         parts=parts,
         motions=motions,
         floating=floating_motions(motions, constraints, interface),
-        frames=turning_bodies(space, model, parts),
+        frames=turning_bodies(space, model, parts) if model.slides else BodyFrames(dimension=space.dimension),
         loading=loading,
         scale=data_scale(space, model, loading, interface),
     )
-    _refuse_sliding(model, examined.frames)
+    if model.yields and examined.turns:
+        _refuse_sliding(model)
     _refuse_unheld(examined, schedule)
     return examined
 
 
-def _refuse_sliding(model: Model, frames: BodyFrames) -> None:
-    """Contacts that slide far are between bodies that yield, or between bodies that turn.
+def _refuse_sliding(model: Model) -> None:
+    """Refuse bodies that yield and turn: contacts that slide far are between those that do one of both.
 
     Raises
     ------
     InputError
-        The first of them between both.
+        The first contact that slides far.
     """
-    if not model.yields or not frames:
-        return
     for i, contact in enumerate(model.contacts):
         if contact.slides:
             words = 'is "finite", a body yields and one may turn; expected elastic bodies, or supports against turning'

@@ -15,7 +15,7 @@ from signorini.condense.condensed import Condensed
 from signorini.condense.ties import Ties
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_model
-from signorini.engine.condensation import condense_bodies
+from signorini.engine.condensation import condense_bodies, free_bodies
 from signorini.engine.examine import Examined, examine, floating_motions
 from signorini.engine.free_motion_check import refuse_free_motions
 from signorini.engine.memory_check import iterates, refuse_unassembled
@@ -26,9 +26,7 @@ from signorini.engine.tangent_bodies import TangentBodies
 from signorini.errors import InputError
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
-from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface, under_laws
-from signorini.interface.sliding import sliding_unknowns
 from signorini.interface.worn_sides import WornSides, worn_sides
 from signorini.linalg.plan import Plans
 from signorini.linalg.threads import one_thread
@@ -343,21 +341,19 @@ def _made(
     candidates, backend, settings, clock : as of `Prepared`
     known : the bodies factorised with these candidates, where they were
     """
-    interface, T = examined.interface, examined.constraints.transform
+    interface = examined.interface
     data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
     yields = examined.model.yields
     softness, condensed, plans = 0.0, known, Plans() if yields else None
     with clock.phase("assembly"):
-        reduced = reduced_stiffness(K, T) if yields or known is None else None
+        reduced = reduced_stiffness(K, examined.constraints.transform) if yields or known is None else None
     solver: ContactSolver
     if reduced is not None and condensed is None:
         with clock.phase("assembly"):
-            relative = sp.csr_array(interface.B @ T)
-            kept = sliding_unknowns(examined.space, examined.model, examined.frames, T)
-            bodies = FreeBodies(reduced, relative, examined.constraints.nodes, examined.space.places, kept)
+            bodies = free_bodies(examined, reduced)
             whole = iterates(bodies, interface, candidates=candidates, backend=backend, yields=yields)
             if whole:
-                solver = make_multipliers(examined, reduced, relative, candidates, settings)
+                solver = make_multipliers(examined, reduced, bodies.B, candidates, settings)
         if not whole:
             condensed = condense_bodies(examined, bodies, candidates, backend, clock, plans)
     if condensed is not None:

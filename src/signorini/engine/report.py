@@ -16,8 +16,7 @@ from signorini.engine.energy import interface_energy, stored_energy, thermal_ene
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
-from signorini.engine.support_changes import support_forces
-from signorini.engine.turning import with_loads_in_space, with_turned_loads
+from signorini.engine.turning import forces_in_space
 from signorini.engine.validity_notes import step_notes
 from signorini.fem.obstacles import arm
 from signorini.law.states import OPEN, STICK
@@ -51,7 +50,7 @@ def step_result(
     finished : whether it goes to the end of the step
     """
     before, state = followed.before, followed.after
-    heat = thermal_energy(prepared)
+    heat = thermal_energy(prepared) if prepared.model.heats else _no_heat
     instants = tuple(_instants(prepared, followed, cycle_ends, heat))
     cycles = followed.cycles or (make_cycles(followed, cycle_ends) if len(cycle_ends) > 1 else ())
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
@@ -59,10 +58,7 @@ def step_result(
     spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
     spent += state.plastic_work - before.plastic_work
     layers = interface_energy(prepared, state)
-    turned, _ = applied(with_turned_loads(prepared, followed.turned_at), state.point)
-    held = support_forces(prepared.constraints, state, turned)
-    held = prepared.frames.about_axes(held, state.displacement)
-    loads, _ = applied(with_loads_in_space(prepared, followed.turned_at), state.point)
+    loads, held = _outside(prepared, followed)
     model = prepared.model
     reactions, bolts = _reactions(prepared, state, held), {bolt.label for bolt in model.bolts}
     springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
@@ -82,7 +78,9 @@ def step_result(
             for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))
         },
         reactions={name: force for name, force in reactions.items() if name not in bolts},
-        bolts=bolt_results(model, prepared.space.at_nodes(state.displacement), state.point.factors, reactions),
+        bolts=bolt_results(model, prepared.space.at_nodes(state.displacement), state.point.factors, reactions)
+        if bolts
+        else {},
         strain_energy=stored - layers - springs + heat(state),
         interface_energy=layers + springs,
         work=state.work - before.work + heat(state) - heat(before),
@@ -98,9 +96,24 @@ def step_result(
     )
 
 
+def _no_heat(_state: State) -> float:
+    """Energy of temperatures where there is none."""
+    return 0.0
+
+
+def _outside(prepared: Prepared, followed: FollowedPart) -> tuple[Array, Array]:
+    """(dofs,) Forces of loads, and of supports, on the bodies at the end."""
+    state = followed.after
+    if prepared.turns:
+        return forces_in_space(prepared, state, followed.turned_at)
+    loads, _ = applied(prepared, state.point)
+    return loads, prepared.constraints.support_forces(state.external - loads)
+
+
 def _displacement(prepared: Prepared, state: State) -> Array:
     """(nodes, d) Displacement in space, of bodies that turn, too."""
-    return prepared.space.at_nodes(prepared.frames.displaced(state.displacement))
+    u = state.displacement
+    return prepared.space.at_nodes(prepared.frames.displaced(u) if prepared.turns else u)
 
 
 def _yielding(prepared: Prepared, followed: FollowedPart, begin: float) -> Yielding | None:
@@ -167,7 +180,7 @@ def _external(prepared: Prepared, state: State, loads: Array, held: Array) -> Ar
     """(nodes, d) Loads and reactions; those of a rigid body at its node of no cell, if one is at its point."""
     model, constraints = prepared.model, prepared.constraints
     if not len(constraints.dependent):
-        if not prepared.frames:
+        if not prepared.turns:
             return prepared.space.at_nodes(state.external)
         force = np.where(constraints.held, state.external, prepared.frames.in_space(state.external, state.displacement))
         return prepared.space.at_nodes(np.where(constraints.alone, loads, force))

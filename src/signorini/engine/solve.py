@@ -34,7 +34,6 @@ from signorini.engine.wellposed import assess
 from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import pairs_of
-from signorini.interface.sliding import slides
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
@@ -94,7 +93,7 @@ def solve_prepared(
     after_step : is given what is finished after every step but the last
     """
     refuse_fields(prepared.model)
-    if wellposed and slides(prepared.model):
+    if wellposed and prepared.model.slides:
         raise InputError("does not know contacts that slide far; expected it without them", where=("wellposed",))
     begin = _first(prepared) if start is None else _fitting(prepared, start)
     history = _follow(prepared, begin, wellposed, after_step)
@@ -145,7 +144,7 @@ def _fitting(prepared: Prepared, start: Checkpoint) -> Checkpoint:
     refuse_moved(now, state)
     found = measured(now, state)
     # pairs that follow the bodies hand over first, which no state before is in balance with
-    if not found.imbalance <= TOLERANCE and not slides(model):
+    if not found.imbalance <= TOLERANCE and not model.slides:
         raise InputError(
             f"is not in equilibrium in this model (residual {found.equilibrium:.1e} of the loads); expected the same "
             "bodies, materials, supports and loads",
@@ -249,9 +248,9 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
     cycle_ends: list[float] = []
     at_events = stage.step.at == "events"
     # the work of temperatures needs the displacements, see signorini.engine.energy
-    heated = any(load.temperature is not None for load in prepared.model.loads)
+    heated = prepared.model.heats
     # sides that slide far hand over first, and then what friction no longer holds slips too
-    change = None if slides(prepared.model) else relaxed(prepared, state, stage.name)
+    change = None if prepared.model.slides else relaxed(prepared, state, stage.name)
     if change is not None:
         after, certificate, trace = change
         slipped = FollowedPart(
@@ -265,7 +264,9 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
         )
         behind.append(lightened(slipped, every=at_events, end=False, heated=heated))
         state = after
-    reaction, offset = at_the_end(prepared, stage, state.point)
+    reaction, offset = state.point.reaction, state.point.offset
+    if len(offset):
+        reaction, offset = at_the_end(prepared, stage, state.point)
     end = LoadPoint(
         factors=stage.ends[-1],
         gap=nominal_gap(prepared, stage, state),
@@ -285,7 +286,7 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
         )
         try:
             way = partial(follow_part, stage)
-            followed = follow_sliding(part, way) if slides(prepared.model) else way(part)
+            followed = follow_sliding(part, way) if prepared.model.slides else way(part)
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, behind) from None
         followed = lightened(followed, every=at_events, end=interval.asked, heated=heated)

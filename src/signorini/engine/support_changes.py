@@ -33,7 +33,7 @@ def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
     now = prepared.constraints
     # at the end of a step nothing is left of what supports bore that it released
     loads, imposed = applied(prepared, replace(state.point, reaction=np.zeros(0), offset=np.zeros(0)))
-    borne = support_forces(before, state, loads)
+    borne = before.support_forces(state.external - loads)
     reaction = np.where(before.held & ~now.held, borne, 0.0)
     other = now.held & ((now.owner != before.owner) | ~before.held)
     old = state.point.offset if len(state.point.offset) else np.zeros(len(imposed))
@@ -71,20 +71,8 @@ def refuse_moved(prepared: Prepared, state: State) -> None:
     )
 
 
-def support_forces(constraints: Constraints, state: State, loads: Array) -> Array:
-    """(dofs,) Forces of supports: what equilibrium takes beyond the loads, where equations hand it on to.
-
-    Parameters
-    ----------
-    constraints : the supports
-    state, loads : a state, and (dofs,) nodal forces of the loads in it
-    """
-    force = constraints.handed_on(np.where(constraints.alone, 0.0, state.external - loads))
-    return np.where(constraints.held, force, 0.0)
-
-
 def at_the_end(prepared: Prepared, stage: Stage, point: LoadPoint) -> tuple[Array, Array]:
-    """Given forces and offsets at the end of a step, each (dofs,) or empty: supports that restore have none.
+    """Given forces and offsets (dofs,) at the end of a step that begins with some: supports that restore have none.
 
     Parameters
     ----------
@@ -92,8 +80,6 @@ def at_the_end(prepared: Prepared, stage: Stage, point: LoadPoint) -> tuple[Arra
     stage : the step
     point : of the load history at its beginning
     """
-    if not len(point.offset):
-        return point.reaction, point.offset
     labels = [support.label for support in prepared.model.supports]
     restored = [labels.index(name) for name in stage.step.restore]
     kept = np.where(np.isin(prepared.constraints.owner, restored), 0.0, point.offset)

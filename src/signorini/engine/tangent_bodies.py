@@ -13,12 +13,12 @@ from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import condense
 from signorini.condense.kept import Kept
+from signorini.engine.condensation import free_bodies
 from signorini.engine.examine import Examined
 from signorini.engine.multipliers import PATIENCE, make_multipliers
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
-from signorini.interface.sliding import sliding_unknowns
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.multifrontal import MultifrontalFactorisation
 from signorini.linalg.one_pattern import on_one_pattern
@@ -72,10 +72,7 @@ class TangentBodies:
     @cached_property
     def bodies(self) -> FreeBodies:
         """With the elastic stiffness."""
-        constraints, space = self.examined.constraints, self.examined.space
-        B = sp.csr_array(self.examined.interface.B @ constraints.transform)
-        slide = sliding_unknowns(space, self.examined.model, self.examined.frames, constraints.transform)
-        return FreeBodies(self.stiffness, B, constraints.nodes, space.places, slide)
+        return free_bodies(self.examined, self.stiffness)
 
     @cached_property
     def kept(self) -> Kept:

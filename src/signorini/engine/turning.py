@@ -16,7 +16,6 @@ from signorini.errors import SolveFailed
 from signorini.fem.body_frames import mean_turn
 from signorini.fem.jacobian import jacobians
 from signorini.fem.rigid import ConnectedBody
-from signorini.interface.sliding import slides
 from signorini.outcome import Outcome
 from signorini.solution.state import LoadPoint, State
 
@@ -36,7 +35,7 @@ def with_turned_loads(prepared: Prepared, displacement: Array) -> Prepared:
     displacement : (dofs,) as frames see it; empty where none has turned
     """
     frames = prepared.frames
-    if not frames or not len(displacement):
+    if not prepared.turns or not len(displacement):
         return prepared
     there = with_loads_in_space(prepared, displacement).loads
     return replace(prepared, loads={name: frames.felt(forces, displacement) for name, forces in there.items()})
@@ -50,13 +49,28 @@ def with_loads_in_space(prepared: Prepared, displacement: Array) -> Prepared:
     prepared, displacement : as of `with_turned_loads`
     """
     frames, following = prepared.frames, {load.label for load in prepared.model.loads if load.kind in _FOLLOWING}
-    if not frames or not len(displacement):
+    if not prepared.turns or not len(displacement):
         return prepared
     loads = {
         name: frames.in_space(forces, displacement) if name in following else forces
         for name, forces in prepared.loads.items()
     }
     return replace(prepared, loads=loads)
+
+
+def forces_in_space(prepared: Prepared, state: State, displacement: Array) -> tuple[Array, Array]:
+    """Forces of loads, and of supports, on bodies in space, (dofs,) each.
+
+    Parameters
+    ----------
+    prepared : the model
+    state : in which they act
+    displacement : (dofs,) that the loads have turned with, as of `with_turned_loads`
+    """
+    turned, _ = applied(with_turned_loads(prepared, displacement), state.point)
+    loads, _ = applied(with_loads_in_space(prepared, displacement), state.point)
+    held = prepared.constraints.support_forces(state.external - turned)
+    return loads, prepared.frames.about_axes(held, state.displacement)
 
 
 def first_share(prepared: Prepared, begin: LoadPoint, end: LoadPoint, limit: float) -> float:
@@ -70,7 +84,7 @@ def first_share(prepared: Prepared, begin: LoadPoint, end: LoadPoint, limit: flo
     begin, end : the points
     limit : length
     """
-    if not prepared.frames:
+    if not prepared.turns:
         return 1.0
     imposed = applied(prepared, end)[1] - applied(prepared, begin)[1]
     return 1.0 / max(1, ceil(prepared.space.farthest(imposed) / limit))
@@ -103,7 +117,7 @@ def refuse_turned(prepared: Prepared, state: State, where: str) -> None:
 
 def turning_notes(prepared: Prepared, state: State) -> Iterator[str]:
     """What small strains about frames, and small rotations of bodies without one, do not bear out."""
-    if not slides(prepared.model) or prepared.model.axisymmetric:
+    if prepared.model.axisymmetric:
         return
     for part, angle in _without_frames(prepared, state):
         if angle > _SAID_TURN:

@@ -49,7 +49,8 @@ def step_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
         yield from overlap_notes(prepared)
     yield from patch_notes(prepared, state)
     yield from large_notes(prepared, state)
-    yield from turning_notes(prepared, state)
+    if prepared.model.slides:
+        yield from turning_notes(prepared, state)
     yield from flow_notes(prepared, state)
     yield from wear_notes(prepared, state)
 
@@ -176,7 +177,8 @@ def _layers(facets: list[IntArray], one: IntArray, two: IntArray, closed: BoolAr
 
 def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
     """Bodies that strain or turn by a quarter of their size, contacts that slip by a tenth of theirs."""
-    displacement = prepared.space.at_nodes(prepared.frames.elastic(state.displacement))
+    u = state.displacement
+    displacement = prepared.space.at_nodes(prepared.frames.elastic(u) if prepared.turns else u)
     for part in prepared.parts:
         if part.kind == ConnectedBody.kind:
             change = float(np.linalg.norm(extent(displacement[part.nodes]))) / (2.0 * part.size)

@@ -38,7 +38,6 @@ from signorini.engine.ways import SPACE_INCREMENTS, follow_part
 from signorini.engine.wear_blocks import CycleBlock, CycleBlocks
 from signorini.engine.wear_paths import FollowedCycle, PathCycle, WornPaths
 from signorini.errors import SolveFailed
-from signorini.interface.sliding import slides
 from signorini.interface.worn_sides import WornSides
 from signorini.model.stage import Stage
 from signorini.outcome import Outcome
@@ -107,7 +106,7 @@ class _Walk:
     @property
     def paths(self) -> WornPaths | SlidingCycles | None:
         """Cycles on the condensed interface; None where increments or bodies at every event are asked for."""
-        return self._recurring if slides(self.prepared.model) else self._of_pairs_that_stay
+        return self._recurring if self.prepared.model.slides else self._of_pairs_that_stay
 
     @cached_property
     def _of_pairs_that_stay(self) -> WornPaths | None:
@@ -146,7 +145,7 @@ class _Walk:
         steady = np.array_equal(start.gap, self.end.gap) and not start.given.any() and not start.reaction.any()
         alike = stage.ends[:m] == stage.ends[m : 2 * m]
         exact = step.increments is None and step.path != "increments" and self.prepared.interface.directions == 2
-        looked_at = step.at == "events" or self.heated or bool(self.prepared.frames)
+        looked_at = step.at == "events" or self.heated or self.prepared.turns
         if looked_at or not (self._strides and steady and alike and exact):
             return
         found = SlidingCycles(self.prepared, self._strides)
@@ -156,7 +155,7 @@ class _Walk:
         """The step in implicit blocks, which end at the latest where a cycle is kept."""
         step = self.stage.step
         assert step.block is not None
-        if slides(self.prepared.model):
+        if self.prepared.model.slides:
             words = "blocks of cycles are for sides that slide a little; expected cycles one by one, without 'block'"
             raise SolveFailed(f"{self.stage.name}: {words}", status=Outcome.NOT_FOUND)
         if self._of_pairs_that_stay is None:
@@ -293,7 +292,7 @@ class _Walk:
             end=point,
             whole=self.stage.step.at == "events",
         )
-        if slides(self.prepared.model):
+        if self.prepared.model.slides:
             followed = follow_sliding(part, partial(follow_part, self.stage), lost, self._strides)
         else:
             followed = follow_part(self.stage, part)

@@ -12,9 +12,8 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.cyclic import cyclic_rows
 from signorini.fem.obstacles import arm, carried
-from signorini.fem.places import nodes_at
+from signorini.fem.places import nodes_at, place_dofs
 from signorini.fem.space import Space
-from signorini.model.conditions import Place
 from signorini.model.links import AXES, Equation, directions
 from signorini.model.model import Model
 
@@ -90,26 +89,6 @@ def make_links(space: Space, model: Model) -> Links:
         equations=len(model.equations),
         rigid_bodies=len(model.rigid_bodies),
     )
-
-
-def place_dofs(space: Space, model: Model, on: Place | int, where: Where) -> IntArray:
-    """(k, c) dofs at a place: of a rigid body its one row of displacements and rotations, otherwise of its nodes.
-
-    Parameters
-    ----------
-    space, model : where the place is
-    on : boundary, node set, coordinates, number of a node, or rigid body
-    where : what errors call the place
-    """
-    names = [body.name for body in model.rigid_bodies]
-    if isinstance(on, str) and on in names:
-        dofs = space.obstacle_dofs(len(model.obstacles) + names.index(on))
-        return dofs[None, : len(directions(space.dimension))]
-    if isinstance(on, int):
-        if on not in space.node_of:
-            raise InputError(f"there is no node {on} in the mesh", where=where)
-        return space.dofs(np.array([space.node_of[on]]))
-    return space.dofs(nodes_at(space, on, where))
 
 
 def _equation(space: Space, model: Model, i: int, equation: Equation) -> tuple[IntArray, Array]:

@@ -11,10 +11,9 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
-from signorini.fem.links import place_dofs
 from signorini.fem.measure import facet_areas, measure
 from signorini.fem.obstacles import arm, obstacle_loads
-from signorini.fem.places import nodes_at
+from signorini.fem.places import nodes_at, place_dofs
 from signorini.fem.space import ON_AXIS, Space
 from signorini.fem.thermal import thermal_forces
 from signorini.fem.varying import on_facets
@@ -26,7 +25,7 @@ from signorini.model.varying import Varying
 def nodal_loads(space: Space, model: Model) -> dict[str, Array]:
     """Consistent nodal forces of every load, and of loaded obstacles, at factor 1, by name, each (dofs,)."""
     nodal = {load.label: _forces(space, model, load, ("load", i)) for i, load in enumerate(model.loads)}
-    return nodal | obstacle_loads(space, model)
+    return nodal | obstacle_loads(space, model) if model.obstacles else nodal
 
 
 def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:

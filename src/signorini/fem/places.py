@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From the places that a user names to nodes."""
+"""From the places that a user names to nodes and their unknowns."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from signorini.errors import InputError, Where
 from signorini.fem.boundary import boundary
 from signorini.fem.space import Space
 from signorini.model.conditions import Place
+from signorini.model.links import directions
 from signorini.model.mesh import CORNERS, NODES_PER_CELL
+from signorini.model.model import Model
 
 # of the size of the mesh: how far a node may be from the point that a user gives
 _PLACE_TOL = 1e-6
@@ -47,6 +49,26 @@ def nodes_at(space: Space, on: Place, where: Where, *, completed: bool = True) -
         node = space.mesh.labels[space.used_nodes[nearest]]
         raise InputError(f"no node at {on}; the nearest is node {node} at {at}", where=where)
     return space.used_nodes[[nearest]]
+
+
+def place_dofs(space: Space, model: Model, on: Place | int, where: Where) -> IntArray:
+    """(k, c) dofs at a place: of a rigid body its one row of displacements and rotations, otherwise of its nodes.
+
+    Parameters
+    ----------
+    space, model : where the place is
+    on : boundary, node set, coordinates, number of a node, or rigid body
+    where : what errors call the place
+    """
+    names = [body.name for body in model.rigid_bodies]
+    if isinstance(on, str) and on in names:
+        dofs = space.obstacle_dofs(len(model.obstacles) + names.index(on))
+        return dofs[None, : len(directions(space.dimension))]
+    if isinstance(on, int):
+        if on not in space.node_of:
+            raise InputError(f"there is no node {on} in the mesh", where=where)
+        return space.dofs(np.array([space.node_of[on]]))
+    return space.dofs(nodes_at(space, on, where))
 
 
 def _corners_only(space: Space, name: str) -> bool:

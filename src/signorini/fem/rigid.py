@@ -126,6 +126,8 @@ def _rigid(model: Model) -> list[ConnectedBody]:
     """Rigid obstacles, then rigid bodies."""
     rigid = [(obstacle.name, obstacle.about, "obstacle") for obstacle in model.obstacles]
     rigid += [(body.name, body.point, "rigid body") for body in model.rigid_bodies]
+    if not rigid:
+        return []
     given = {"nodes": np.empty(0, int), "size": arm(model), **_freedom(model)}
     return [
         ConnectedBody(bodies=(name,), centre=np.array(about), obstacle=j, kind=kind, **given)

@@ -86,13 +86,13 @@ class DeformedBodies:
         ----------
         space, model, displacement, factors, plastic : as of :func:`body_stresses`
         """
-        own, turns = in_frames(space, model, displacement)
+        own, turns = in_frames(space, model, displacement) if model.slides else (displacement, None)
         return DeformedBodies(
             space=space,
             model=model,
             displacement=own,
             turns=turns,
-            temperature=temperatures(space, model, factors or {}),
+            temperature=temperatures(space, model, factors or {}) if model.heats else None,
             plastic=plastic or {},
         )
 

@@ -14,9 +14,9 @@ from signorini.arrays import Array, BoolArray, IntArray, selection
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
-from signorini.fem.links import Eliminated, Links, eliminate, make_links, place_dofs
+from signorini.fem.links import Eliminated, Links, eliminate, make_links
 from signorini.fem.obstacles import arm, driven
-from signorini.fem.places import nodes_at
+from signorini.fem.places import nodes_at, place_dofs
 from signorini.fem.space import ON_AXIS, Space
 from signorini.fem.varying import at_nodes
 from signorini.model.links import directions
@@ -83,6 +83,11 @@ class Constraints:
         completed[self.dependent] = self.shares @ displacement
         return completed
 
+    def support_forces(self, lacking: Array) -> Array:
+        """(dofs,) Forces of supports: what equilibrium lacks (dofs,), where equations hand it on to."""
+        force = self.handed_on(np.where(self.alone, 0.0, lacking))
+        return np.where(self.held, force, 0.0)
+
     def handed_on(self, forces: Array) -> Array:
         """Forces on all dofs (dofs,), those on dependent ones given to the dofs that they follow from."""
         if not len(self.dependent):
@@ -127,34 +132,34 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
         If two supports prescribe different values at one node, a support moves a node off the axis of an axisymmetric
         body, a rigid boundary carries a support in its direction, or equations contradict what supports prescribe.
     """
-    links = make_links(space, model)
+    links = make_links(space, model) if model.couples else None
     given = _prescribed(space, model, links, without)
     leader = _leaders(space, model, given)
     total = space.number_of_dofs
-    if len(links.first):
+    follows, shares = np.zeros(total, bool), sp.csr_array((0, total))
+    if links is not None:
         # dofs of a rigid loaded boundary are one unknown
         C = sp.csr_array(links.C @ selection(leader, total))
         links = replace(links, C=C, first=leader[links.first])
-    found = eliminate(links, given.held)
-    _refuse_contradictions(space, links, found, given)
-    follows = np.zeros(total, bool)
-    follows[found.dependent] = True
+        found = eliminate(links, given.held)
+        _refuse_contradictions(space, links, found, given)
+        follows[found.dependent], shares = True, found.shares
     free = np.full(total, -1)
     unknown = np.flatnonzero(~given.held & ~follows & (leader == np.arange(total)))
     free[unknown] = np.arange(len(unknown))
-    free[found.dependent] = -2
+    free[follows] = -2
     free = np.where(given.held, -1, free[leader])
     rows = np.flatnonzero(free >= 0)
     T = sp.csr_array((np.ones(len(rows)), (rows, free[rows])), shape=(total, len(unknown)))
-    dependent, shares = np.flatnonzero(free == -2), found.shares
+    dependent = np.flatnonzero(free == -2)
     if len(dependent):
-        shares = shares[np.searchsorted(found.dependent, leader[dependent])]
+        shares = shares[np.searchsorted(np.flatnonzero(follows), leader[dependent])]
         T = sp.csr_array(T + selection(dependent, total).T @ (shares @ T))
     made = Constraints(
         free=free,
         transform=T,
         prescribed={},
-        springs=make_springs(space, model),
+        springs=make_springs(space, model) if model.foundations else {},
         owner=given.owner,
         nodes=unknown // space.dimension,
         dependent=dependent,
@@ -163,7 +168,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     return replace(made, prescribed={name: made.completed(u) for name, u in given.values.items()})
 
 
-def _prescribed(space: Space, model: Model, links: Links, without: Collection[str]) -> _Prescribed:
+def _prescribed(space: Space, model: Model, links: Links | None, without: Collection[str]) -> _Prescribed:
     """What supports, moving obstacles and the axis hold, and what belongs to nothing."""
     total, d = space.number_of_dofs, space.dimension
     axis_dofs = _on_axis(space, model)
@@ -198,7 +203,8 @@ def _prescribed(space: Space, model: Model, links: Links, without: Collection[st
         held[dofs[[0, 2]]] |= model.axisymmetric
     loose = np.zeros(total, bool)
     loose[: d * len(space.used)] = np.repeat(~space.used, d)
-    loose[links.C.indices] = False
+    if links is not None:
+        loose[links.C.indices] = False
     held |= loose
     held[axis_dofs] = True
     return _Prescribed(held=held, owner=owner, values=prescribed)

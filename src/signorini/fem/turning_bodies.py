@@ -11,9 +11,9 @@ from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import Array, BoolArray, IntArray, among, extent
 from signorini.fem.body_frames import BodyFrame, BodyFrames, triad
-from signorini.fem.links import linked_nodes, place_dofs, rigid_nodes
+from signorini.fem.links import linked_nodes, rigid_nodes
 from signorini.fem.obstacles import arm
-from signorini.fem.places import nodes_at
+from signorini.fem.places import nodes_at, place_dofs
 from signorini.fem.rigid import ConnectedBody, connected_bodies
 from signorini.fem.space import Space
 from signorini.model.model import Model
@@ -33,7 +33,7 @@ def turning_bodies(space: Space, model: Model, parts: tuple[ConnectedBody, ...] 
     space, model : of the bodies
     parts : connected pieces, where they are known
     """
-    if model.axisymmetric or not any(contact.slides for contact in model.contacts):
+    if model.axisymmetric:
         return BodyFrames(dimension=space.dimension)
     parts = connected_bodies(space, model) if parts is None else parts
     joined = _joined(space, model, parts)

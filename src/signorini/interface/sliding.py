@@ -16,11 +16,6 @@ from signorini.interface.interface import Interface, make_interface
 from signorini.model.model import Model
 
 
-def slides(model: Model) -> bool:
-    """Whether the sides of some contact slide far."""
-    return any(contact.slides for contact in model.contacts)
-
-
 def sliding_unknowns(space: Space, model: Model, frames: BodyFrames, transform: sp.csr_array) -> IntArray:
     """Free displacements of the nodes, and obstacles, of both sides of contacts that slide far, ascending.
 

@@ -99,7 +99,8 @@ class Contact:
             object.__setattr__(self, "gap", self._given_gap())
         for key in ("normal_compliance", "tangential_compliance"):
             object.__setattr__(self, key, number(getattr(self, key), (key,), least=0.0))
-        object.__setattr__(self, "interference", varying(self.interference, ("interference",)))
+        checked = number if isinstance(self.interference, float | int) else varying
+        object.__setattr__(self, "interference", checked(self.interference, ("interference",)))
         choice(self.coupling, COUPLINGS, ("coupling",), "coupling")
         choice(self.side, ("named", "coarser"), ("side",), "side")
         choice(self.sliding, ("small", "finite"), ("sliding",), "sliding")

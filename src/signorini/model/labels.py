@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names that steps and results use: one for each part of a model."""
+"""Names that steps and results use: one for each part of a model, and what steps change of parts by their names."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Protocol
 
-from signorini.errors import InputError
+from signorini.errors import InputError, one_of
 from signorini.model.conditions import Support
+from signorini.model.contact import Contact
+from signorini.model.step import Step
 
 
 class Labelled(Protocol):
@@ -46,3 +48,36 @@ def refuse_same_names(parts: dict[str, Sequence[Labelled]]) -> None:
                 f"'{obstacle.label}' is a load or a support too; steps need a name for each",
                 where=("obstacle", i, "name"),
             )
+
+
+def refuse_wrong_changes(i: int, step: Step, contacts: Sequence[Contact], held: Sequence[Labelled]) -> None:
+    """Refuse a step that changes a contact or a support that is not there, or as it cannot change.
+
+    Parameters
+    ----------
+    i : number of the step
+    step : with the names
+    contacts : of the model
+    held : its supports and bolts
+
+    Raises
+    ------
+    InputError
+        With the name.
+    """
+    known = [contact.label for contact in contacts]
+    for key in ("friction", "interference", "active", "inactive"):
+        for name in getattr(step, key):
+            if name not in known:
+                raise InputError(one_of(name, known, "contact"), where=("step", i, key))
+            if contacts[known.index(name)].tied:
+                raise InputError(f"'{name}' is tied for good; only contacts can change", where=("step", i, key))
+    for name, value in step.friction.items():
+        contacts[known.index(name)].check_change(value, ("step", i, "friction", name))
+    for name in step.interference:
+        contacts[known.index(name)].check_pressed(("step", i, "interference", name))
+    supports = [part.label for part in held]
+    for key in ("release", "hold", "restore"):
+        for name in getattr(step, key):
+            if name not in supports:
+                raise InputError(one_of(name, supports, "support"), where=("step", i, key))

@@ -17,7 +17,7 @@ from signorini.model.body import Body
 from signorini.model.bolt import Bolt
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Place, Support
 from signorini.model.contact import Contact
-from signorini.model.labels import Labelled, refuse_same_names
+from signorini.model.labels import Labelled, refuse_same_names, refuse_wrong_changes
 from signorini.model.links import CyclicSymmetry, Equation, RigidBody, directions
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import Mesh
@@ -158,6 +158,21 @@ class Model(Short):
     def wears(self) -> bool:
         """Whether sliding wears any contact."""
         return any(contact.wear is not None for contact in self.contacts)
+
+    @property
+    def couples(self) -> bool:
+        """Whether equations, rigid bodies or cyclic symmetries couple displacements."""
+        return bool(self.equations or self.rigid_bodies or self.cyclic_symmetries)
+
+    @property
+    def heats(self) -> bool:
+        """Whether any load is a temperature."""
+        return any(load.temperature is not None for load in self.loads)
+
+    @property
+    def slides(self) -> bool:
+        """Whether the sides of any contact slide far."""
+        return any(contact.slides for contact in self.contacts)
 
     @property
     def thicknesses(self) -> list[float]:
@@ -349,33 +364,12 @@ class Model(Short):
             for name in step.scale or ():
                 if name not in names:
                     raise InputError(one_of(name, names, "load or moving support"), where=("step", i, "scale"))
-            self._check_contact_names(i, step)
-            self._check_support_names(i, step)
+            refuse_wrong_changes(i, step, self.contacts, [*self.supports, *self.bolts])
             if step.block is not None and not self.wears:
                 raise InputError("is given, but no contact wears", where=("step", i, "block"))
             if step.path == "exact":
                 for contact in self.contacts:
                     contact.check_exact(("step", i, "path"), in_space=self.kind == "3d")
-
-    def _check_contact_names(self, i: int, step: Step) -> None:
-        known = [contact.label for contact in self.contacts]
-        for key in ("friction", "interference", "active", "inactive"):
-            for name in getattr(step, key):
-                if name not in known:
-                    raise InputError(one_of(name, known, "contact"), where=("step", i, key))
-                if self.contacts[known.index(name)].tied:
-                    raise InputError(f"'{name}' is tied for good; only contacts can change", where=("step", i, key))
-        for name, value in step.friction.items():
-            self.contacts[known.index(name)].check_change(value, ("step", i, "friction", name))
-        for name in step.interference:
-            self.contacts[known.index(name)].check_pressed(("step", i, "interference", name))
-
-    def _check_support_names(self, i: int, step: Step) -> None:
-        known = [*(support.label for support in self.supports), *(bolt.label for bolt in self.bolts)]
-        for key in ("release", "hold", "restore"):
-            for name in getattr(step, key):
-                if name not in known:
-                    raise InputError(one_of(name, known, "support"), where=("step", i, key))
 
     @property
     def scaled_names(self) -> tuple[str, ...]:

@@ -277,9 +277,9 @@ def _write_tables(history: History, fields: Fields, folder: Path, *, done: Colle
     """
     write_contacts(history, folder / "contact.csv")
     names = ["contact.csv"]
-    model, states = history.model, frames(history)
-    if len(states) > 1:
-        names += write_series(fields, states, folder, done=done)
+    model = history.model
+    if len(history.steps) > 1 or any(shot.displacement is not None for shot in history.last.instants[:-1]):
+        names += write_series(fields, frames(history), folder, done=done)
     last = folder / f"solution_{len(history.steps):04d}.vtu"
     if last.exists():
         shutil.copyfile(last, folder / "solution.vtu")
