@@ -39,6 +39,7 @@ BASE = {
 }
 CORE = {
     "law",
+    "fatigue",
     "model",
     "meshing",
     "linalg",
@@ -55,7 +56,8 @@ BELOW_CLI = BASE | CORE | {"engine", "deck", "output", "plot", "reference"}
 
 # folder or file: what it may import besides itself and the base
 ALLOWED = {
-    "model": {"law"},
+    "fatigue": set(),
+    "model": {"law", "fatigue"},
     "linalg": set(),
     "lcp": {"linalg"},
     "law": set(),

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from signorini._version import __version__
 
 if TYPE_CHECKING:
-    from signorini import lcp
+    from signorini import fatigue, lcp
     from signorini.api import Solution, load, prepare, solve
     from signorini.deck import read
     from signorini.engine import paper
@@ -85,6 +85,7 @@ __all__ = [
     "box",
     "cut",
     "extruded",
+    "fatigue",
     "half_disk",
     "join",
     "lcp",
@@ -132,7 +133,7 @@ _HOMES = {
     "signorini.model.wear": ("Wear",),
     "signorini.settings": ("SolverSettings",),
 }
-_MODULES = {"lcp": "signorini.lcp", "paper": "signorini.engine.paper"}
+_MODULES = {"fatigue": "signorini.fatigue", "lcp": "signorini.lcp", "paper": "signorini.engine.paper"}
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
 

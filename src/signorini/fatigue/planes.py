@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Critical planes: on which plane through a point a parameter of stress and strain over time is largest.
+
+Stresses and strains are linear between the times at which they are given, so that their extremes on every plane, and
+the smallest circle around the path of a shear, are those at these times: nothing is sampled in time. Planes are looked
+at on a grid over all directions of space, and from its best ones on by steps that halve.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from signorini.arrays import Array
+from signorini.fatigue.ball import smallest_ball
+
+_SPACING = np.radians(6.0)  # between planes of the grid: maxima are wider than 45 degrees
+_STARTS = 4  # of the best planes of the grid, apart from each other, from which the maximum is sought
+_FINEST = 1e-7  # radians: what is left then of a smooth maximum is rounding, of one with a kink 1e-7
+_SAME_MAXIMUM = 3.0  # spacings: planes of the grid that are nearer lead to one maximum
+_BETTER = 1e-12  # of a parameter: planes that are alike to rounding do not replace the first
+
+
+def grid_of_planes() -> Array:
+    """(m, 3) unit normals, one for every plane through a point, `_SPACING` apart; those across z come first."""
+    rings = round(0.5 * np.pi / _SPACING)
+    found = []
+    for ring in range(rings + 1):
+        height = ring * 0.5 * np.pi / rings
+        around = 2 * rings if ring == 0 else max(1, round(4 * rings * np.cos(height)))
+        turn = np.arange(around) * (np.pi if ring == 0 else 2.0 * np.pi) / around
+        level = np.full(around, np.sin(height))
+        found.append(np.column_stack([np.cos(height) * np.cos(turn), np.cos(height) * np.sin(turn), level]))
+    return np.concatenate(found)
+
+
+@njit(cache=True)
+def critical_planes(stress: Array, strain: Array, grid: Array, shear: bool, slope: float) -> tuple[Array, Array]:
+    """The planes on which a parameter is largest, (n, 3) normals, and the parameter with its terms, (n, 3).
+
+    Parameters
+    ----------
+    stress, strain : (n, t, 6) tensors xx, yy, zz, xy, yz, xz at the ends of straight parts of a history
+    grid : of planes to look at first, see `grid_of_planes`
+    shear : the amplitude is that of the shear strain, ``gamma_a max(1 + slope sigma_n,max, 0)``; otherwise of the
+        normal strain, ``eps_a max(sigma_n,max, 0)``
+    slope : of the first, area per force
+    """
+    n = len(stress)
+    planes, found = np.zeros((n, 3)), np.zeros((n, 3))
+    values = np.zeros(len(grid))
+    apart = np.cos(_SAME_MAXIMUM * _SPACING)
+    for i in range(n):
+        for m in range(len(grid)):
+            values[m] = _on_plane(grid[m], stress[i], strain[i], shear, slope)[0]
+        found[i, 0] = -1.0
+        for _ in range(_STARTS):
+            best = int(np.argmax(values))
+            if values[best] < 0.0:
+                break
+            for m in range(len(grid)):
+                if abs((grid[m] * grid[best]).sum()) > apart:
+                    values[m] = -1.0
+            normal = _steepest(grid[best], stress[i], strain[i], shear, slope)
+            here = _on_plane(normal, stress[i], strain[i], shear, slope)
+            if here[0] > (1.0 + _BETTER) * found[i, 0]:
+                planes[i] = normal
+                found[i, 0], found[i, 1], found[i, 2] = here
+    return planes, found
+
+
+@njit(cache=True)
+def _steepest(start: Array, stress: Array, strain: Array, shear: bool, slope: float) -> Array:
+    """The plane of the maximum near one, by steps along eight directions that halve where none of them leads up."""
+    normal, step = start.copy(), 0.5 * _SPACING
+    value = _on_plane(normal, stress, strain, shear, slope)[0]
+    while step > _FINEST:
+        one, other = _tangents(normal)
+        next_normal, next_value = normal, value
+        for k in range(8):
+            angle = 0.25 * np.pi * k
+            trial = normal + np.tan(step) * (np.cos(angle) * one + np.sin(angle) * other)
+            trial /= np.sqrt((trial * trial).sum())
+            here = _on_plane(trial, stress, strain, shear, slope)[0]
+            if here > (1.0 + _BETTER) * next_value:
+                next_normal, next_value = trial, here
+        if next_value > value:
+            normal, value = next_normal, next_value
+        else:
+            step *= 0.5
+    return normal
+
+
+@njit(cache=True)
+def _tangents(normal: Array) -> tuple[Array, Array]:
+    """Two unit vectors of a plane, the second along z as far as it can be."""
+    one = np.array([-normal[1], normal[0], 0.0])
+    length = np.sqrt((one * one).sum())
+    if length < _FINEST:
+        return np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
+    one /= length
+    other = np.array(
+        [-normal[2] * one[1], normal[2] * one[0], normal[0] * one[1] - normal[1] * one[0]],
+    )
+    return one, other
+
+
+@njit(cache=True)
+def _on_plane(normal: Array, stress: Array, strain: Array, shear: bool, slope: float) -> tuple[float, float, float]:
+    """The parameter on a plane, the amplitude of its strain and its largest normal stress."""
+    most, low, high = -np.inf, np.inf, -np.inf
+    x, y, z = normal
+    for t in range(len(stress)):
+        most = max(most, _across(stress[t], x, y, z))
+        if not shear:
+            along = _across(strain[t], x, y, z)
+            low, high = min(low, along), max(high, along)
+    if not shear:
+        return 0.5 * (high - low) * max(most, 0.0), 0.5 * (high - low), most
+    one, other = _tangents(normal)
+    path = np.zeros((len(strain), 2))
+    for t in range(len(strain)):
+        e = strain[t]
+        pulled = (e[0] * x + e[3] * y + e[5] * z, e[3] * x + e[1] * y + e[4] * z, e[5] * x + e[4] * y + e[2] * z)
+        for i in range(3):
+            path[t, 0] += 2.0 * one[i] * pulled[i]
+            path[t, 1] += 2.0 * other[i] * pulled[i]
+    amplitude = smallest_ball(path)[1]
+    return amplitude * max(1.0 + slope * most, 0.0), amplitude, most
+
+
+@njit(cache=True)
+def _across(s: Array, x: float, y: float, z: float) -> float:
+    """``n . s n`` of a tensor."""
+    return s[0] * x * x + s[1] * y * y + s[2] * z * z + 2.0 * (s[3] * x * y + s[4] * y * z + s[5] * x * z)
