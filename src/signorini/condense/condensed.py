@@ -55,7 +55,7 @@ class Condensed:
     root : (a,) square roots of D, in all directions the same, force per length to the 1/2
     dofs : (m,) the contact dofs among the free displacements
     compliance : (d, a) of the interface, C, length per force
-    ties : tied pairs, which are no unknowns of the law: all displacements here leave them at rest
+    ties : tied pairs, which are no unknowns of the law: all displacements here leave them at rest; None where none is
     B : (d a, m) relative displacements of the active pairs in terms of them, B_c
     K : (m, m) stiffness between the contact dofs where all others are held
     """
@@ -68,7 +68,7 @@ class Condensed:
     dofs: IntArray
     B: sp.csr_array
     compliance: Array
-    ties: Ties
+    ties: Ties | None
     K: sp.csr_array
     _basis: Basis
     _leaning: Array
@@ -218,7 +218,7 @@ def condense(
     B, dofs, ties, active = kept.B, kept.dofs, kept.ties, kept.active
     response: Response | None = None
     with clock.phase("factorisation"):
-        by_nodes = interface.directions == 2 or len(ties.rows) or len(bodies.kept)
+        by_nodes = interface.directions == 2 or ties is not None or len(bodies.kept)
         if not by_nodes and B.shape[0] and takes_borders(backend):
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves

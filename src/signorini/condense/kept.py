@@ -23,7 +23,7 @@ class Kept:
     ----------
     held : (n,) pairs that cannot move along their normal, because supports hold them
     active : (n,) pairs that the law is asked of
-    ties : tied pairs
+    ties : tied pairs; None where supports hold all that is tied, or nothing is
     B : (d a, z) relative displacements of the active pairs in terms of the free displacements
     dofs : (m,) free displacements that pairs see
     contact : (d a, m) B in terms of them
@@ -32,7 +32,7 @@ class Kept:
 
     held: BoolArray
     active: BoolArray
-    ties: Ties
+    ties: Ties | None
     B: sp.csr_array
     dofs: IntArray
     contact: sp.csr_array
@@ -48,11 +48,13 @@ class Kept:
         candidates : (n,) pairs that may touch; the nodes of the others are eliminated like any other
         """
         seen, moves, held, active = active_pairs(bodies.B, interface, candidates)
-        ties = make_ties(seen, np.nonzero(interface.rows(interface.tied) & moves)[0])
+        rows = np.nonzero(interface.rows(interface.tied) & moves)[0]
+        ties = make_ties(seen, rows) if len(rows) else None
         B = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]])
-        dofs = np.unique(np.concatenate([B.indices, ties.B.indices, bodies.kept]))
-        contact, tied = sp.csr_array(B[:, dofs]), ties.B[:, dofs].toarray()
-        return Kept(held=held, active=active, ties=ties, B=B, dofs=dofs, contact=contact, tied=tied)
+        tied = sp.csr_array((0, B.shape[1])) if ties is None else ties.B
+        dofs = np.unique(np.concatenate([B.indices, tied.indices, bodies.kept]))
+        contact = sp.csr_array(B[:, dofs])
+        return Kept(held=held, active=active, ties=ties, B=B, dofs=dofs, contact=contact, tied=tied[:, dofs].toarray())
 
     def block(self, K: sp.csr_array) -> sp.csr_array:
         """(m, m) The stiffness between what is kept where all else is held, of one on the free displacements (z, z)."""

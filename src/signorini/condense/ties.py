@@ -17,7 +17,7 @@ _DEPENDENT = 1e-10  # of the largest: what is left of a row that follows from th
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Ties:
-    """``B_t z = 0`` for independent rows; where several ties meet at a node one may follow from the others.
+    """``B_t z = 0`` for independent rows, one or more; where several meet at a node one may follow from the others.
 
     Attributes
     ----------
@@ -31,8 +31,6 @@ class Ties:
 
     def shares(self, values: Array) -> Array:
         """``(B_t B_t^T)^-1 values``, (t, ...)."""
-        if not len(self.rows):
-            return values
         solved: Array = scipy.linalg.cho_solve((self._gram, True), values)
         return solved
 
@@ -45,6 +43,19 @@ class Ties:
         """
         return -self.shares(self.B @ residual)
 
+    def bear(self, forces: Array, residual: Array) -> Array:
+        """What forces of the ties leave of equilibrium, (z,).
+
+        Parameters
+        ----------
+        forces : (d, n) of all pairs, among which they are written
+        residual : (z,) what the other forces leave, as of `forces`
+        """
+        tied = self.forces(residual)
+        self.give(forces, tied)
+        left: Array = residual + self.B.T @ tied
+        return left
+
     def give(self, forces: Array, values: Array | float) -> None:
         """Write the forces of the ties, (t,) or one for all, among those of all pairs, (d, n)."""
         forces.reshape(-1)[self.rows] = values
@@ -56,16 +67,14 @@ class Ties:
 
 
 def make_ties(B: sp.csr_array, rows: IntArray) -> Ties:
-    """Choose independent rows.
+    """The ties of rows, of which those that are independent are chosen.
 
     Parameters
     ----------
     B : (d n, z) relative displacements of all pairs in terms of the free displacements
-    rows : those of tied pairs that are not held by supports
+    rows : those of tied pairs that are not held by supports, one or more
     """
     own = sp.csr_array(B[rows])
-    if not len(rows):
-        return Ties(rows=rows, B=own, _gram=np.zeros((0, 0)))
     gram = (own @ own.T).toarray()
     size = np.sqrt(np.diag(gram))
     _, pivots, rank, _ = scipy.linalg.lapack.dpstrf(gram / np.outer(size, size), lower=1, tol=_DEPENDENT)

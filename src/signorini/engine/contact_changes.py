@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
 from signorini.engine.energy import set_free, stored_energy
-from signorini.engine.free_motion_check import left_out, refuse_free_motions
+from signorini.engine.examine import left_out, refuse_free_motions
 from signorini.engine.increments import advance
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError
@@ -110,17 +110,11 @@ def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
     return prepared.under(interface, loading, absent)
 
 
-def nominal_gap(prepared: Prepared, stage: Stage, state: State) -> Array:
-    """(n,) Gaps under the interferences at the end of a step, between sides as worn as they are at its beginning.
-
-    Parameters
-    ----------
-    prepared, stage : the model, and the step
-    state : at the beginning of the step
-    """
+def pressed_gap(prepared: Prepared, stage: Stage) -> Array:
+    """(n,) Gaps of sides that are not worn, length, under the interferences at the end of a step."""
     gap = prepared.interface.gap.copy()
     for i, contact in enumerate(prepared.model.contacts):
         if contact.label in stage.interference:
             own = prepared.interface.contact == i
             gap[own] += contact.constant_interference - stage.interference[contact.label]
-    return gap + prepared.worn_gap(state)
+    return gap

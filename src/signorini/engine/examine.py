@@ -6,19 +6,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
 from signorini.engine.bolts import with_bolts
 from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
-from signorini.engine.free_motion_check import left_out, refuse_free_motions
 from signorini.errors import InputError
 from signorini.fem.body_frames import BodyFrames
 from signorini.fem.cyclic import refuse_contact_across
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
-from signorini.fem.rigid import ConnectedBody, connected_bodies, free_motions, rigid_motions
+from signorini.fem.rigid import ConnectedBody, connected_bodies, describe_motions, free_motions, rigid_motions
 from signorini.fem.space import Space, make_space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.fem.turning_bodies import turning_bodies
@@ -150,6 +150,53 @@ def _refuse_unheld(examined: Examined, schedule: Sequence[Stage]) -> None:
             refuse_free_motions(space, now, left, examined.parts, examined.motions)
         except InputError as error:
             raise left_out(error, stage) from error
+
+
+def left_out(error: InputError, stage: Stage) -> InputError:
+    """What is wrong in a step, with the supports and contacts that it does without, and where the step says so."""
+    missing = sorted(stage.released | stage.inactive)
+    if not missing:
+        return error
+    where = error.where or ("step", stage.number - 1, "inactive" if stage.inactive else "release")
+    return InputError(f"without {', '.join(missing)}, {error.message}", where=where)
+
+
+def refuse_free_motions(
+    space: Space,
+    constraints: Constraints,
+    interface: Interface,
+    parts: tuple[ConnectedBody, ...],
+    motions: sp.csr_array,
+) -> None:
+    """A motion that neither supports nor contact can resist has no place that a solver could find.
+
+    Parameters
+    ----------
+    space : unknowns
+    constraints, interface : the supports and the pairs
+    parts, motions : connected pieces, and (dofs, motions of all of them) their rigid motions
+
+    Raises
+    ------
+    InputError
+        If a part can move: with its motion.
+    """
+    dofs = space.dofs(np.unique(interface.B.indices // space.dimension)).ravel()
+    touching = sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), (len(dofs), space.number_of_dofs))
+    free = free_motions(motions, constraints, touching)
+    if free.shape[1]:
+        raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
+    rubbing = (interface.friction.rubs & (interface.anisotropy > 0).T).ravel()
+    resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
+    free = free_motions(motions, constraints, resisting)
+    if free.shape[1]:
+        raise InputError(
+            f"{_say(parts, free)}: nothing but frictionless contact, which cannot resist; add a support or friction"
+        )
+
+
+def _say(parts: tuple[ConnectedBody, ...], motions: Array) -> str:
+    return ", and ".join(describe_motions(parts, motions))
 
 
 def floating_motions(motions: sp.csr_array, constraints: Constraints, interface: Interface) -> Array:

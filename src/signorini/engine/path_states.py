@@ -109,7 +109,8 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
     forces, ties = seen.forces.copy(), condensed.ties
     given = loads + prepared.flowed if len(prepared.flowed) else loads
     missing = given + interface.on_bodies(forces) - prepared.K @ displacement
-    ties.give(forces, ties.forces(prepared.constraints.on_free(missing)))
+    if ties is not None:
+        ties.bear(forces, prepared.constraints.on_free(missing))
     after = next_state(
         prepared,
         last,

@@ -16,8 +16,7 @@ from signorini.condense.ties import Ties
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_model
 from signorini.engine.condensation import condense_bodies, free_bodies
-from signorini.engine.examine import Examined, examine, floating_motions
-from signorini.engine.free_motion_check import refuse_free_motions
+from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
 from signorini.engine.memory_check import iterates, refuse_unassembled
 from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers
 from signorini.engine.plastic_solver import PlasticSolver
@@ -359,7 +358,8 @@ def _made(
     if condensed is not None:
         softness = _softness(examined, condensed)
         data["scale"] = examined.scale.bent(softness)
-        data["constraints"] = _with_ties(examined, condensed.ties)
+        if condensed.ties is not None:
+            data["constraints"] = _with_ties(examined, condensed.ties)
         solver = CondensedSolver.of(condensed, interface, data["scale"], settings)
     return Prepared(
         **data,

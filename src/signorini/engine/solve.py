@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.clock import Clock
-from signorini.engine.contact_changes import nominal_gap, relaxed, staged, switched
+from signorini.engine.contact_changes import pressed_gap, relaxed, staged, switched
 from signorini.engine.increments import measured
 from signorini.engine.memory_check import refuse_fields
 from signorini.engine.prepare import Prepared, prepare
@@ -188,7 +188,10 @@ def _follow(
             while True:
                 try:
                     with prepared.clock.again(why):
-                        now = staged(prepared, stage, loading)
+                        if stage.friction or stage.inactive:
+                            now = staged(prepared, stage, loading)
+                        else:
+                            now = prepared.under(prepared.interface, loading, prepared.absent)
                         followed, cycle_ends = _from(end, constraints, now, stage)
                     break
                 except SolveFailed:
@@ -222,7 +225,9 @@ def _follow(
 def _from(end: Checkpoint, before: Constraints, now: Prepared, stage: Stage) -> tuple[FollowedPart, list[float]]:
     """A step from the end of the one before it and its supports, with the supports and contacts that it changes."""
     state = end.state if stage.released == end.standing.released else handed_over(now, before, end.state)
-    return _step(now, stage, switched(now, state, pairs_of(now.model, now.interface, end.standing.inactive)))
+    if stage.inactive != end.standing.inactive:
+        state = switched(now, state, pairs_of(now.model, now.interface, end.standing.inactive))
+    return _step(now, stage, state)
 
 
 def _motion(stop: SolveFailed | KeyboardInterrupt) -> Array | None:
@@ -250,7 +255,8 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
     # the work of temperatures needs the displacements, see signorini.engine.energy
     heated = prepared.model.heats
     # sides that slide far hand over first, and then what friction no longer holds slips too
-    change = None if prepared.model.slides else relaxed(prepared, state, stage.name)
+    carried = not prepared.model.slides and bool(state.forces.any())
+    change = relaxed(prepared, state, stage.name) if carried else None
     if change is not None:
         after, certificate, trace = change
         slipped = FollowedPart(
@@ -269,7 +275,7 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
         reaction, offset = at_the_end(prepared, stage, state.point)
     end = LoadPoint(
         factors=stage.ends[-1],
-        gap=nominal_gap(prepared, stage, state),
+        gap=(pressed_gap(prepared, stage) if stage.interference else prepared.interface.gap) + prepared.worn_gap(state),
         given=np.zeros_like(state.point.given),
         reaction=reaction,
         offset=offset,

@@ -283,12 +283,11 @@ class CondensedSolver:
                     reduced, moved[:, own] - before[0], forces[:, own] - before[1], misfit
                 )
                 u = T @ free
-                ties.give(forces, 0.0)
+                if ties is not None:
+                    ties.give(forces, 0.0)
                 internal = internal_forces(system.K, u) if step else system.K @ u
                 residual = f + system.constraints.on_free(interface.on_bodies(forces) - internal)
-                tied = ties.forces(residual)
-                ties.give(forces, tied)
-                residual += ties.B.T @ tied
+                residual = residual if ties is None else ties.bear(forces, residual)
                 misfit = (offset + interface.motion(u) - moved)[:, own] + condensed.compliance * forces[:, own]
                 misfit[1:][law.locked] = 0.0
             lost = float(np.abs(misfit).max(initial=0.0))

@@ -92,8 +92,8 @@ def _completed(prepared: Prepared, offset: Array) -> Array:
     constraints = prepared.constraints
     completed = constraints.completed(offset)
     paths = prepared.solver.paths
-    if paths is None or not len(paths.condensed.ties.rows):
+    ties = None if paths is None else paths.condensed.ties
+    if ties is None:
         return completed
-    ties = paths.condensed.ties
     result: Array = completed + constraints.transform @ ties.closing(prepared.interface.B[ties.rows] @ completed)
     return result
