@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The walk through the house: which files a run of a deck visits, from its text to its results.
 
-python -m benchmarks.walk [DECK] [--chain]
+python -m benchmarks.walk [DECK] [--chain] [--write docs/design.md]
 
 A file is visited where one of its functions runs; what only importing runs is left out, and so is compiled code. With
 ``--chain`` every room is printed with its files in the order of their first visit. ``PYTHONPATH`` chooses the package:
-an older one can be counted by the same script.
+an older one can be counted by the same script. With ``--write`` the numbers replace those in a document.
 """
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import io
 import sys
 import tempfile
 from pathlib import Path
 from types import FrameType
+
+from benchmarks import command, page
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "zhu_cylinder.toml"
 
@@ -59,11 +60,14 @@ def told(found: dict[str, list[str]], *, chain: bool) -> str:
 
 def main_walk() -> None:
     """Count, and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command.parser(__doc__, write=True)
     parser.add_argument("deck", nargs="?", type=Path, default=EXAMPLE)
     parser.add_argument("--chain", action="store_true", help="print the files of every room too")
     options = parser.parse_args()
-    print(told(visited(options.deck), chain=options.chain))
+    found = visited(options.deck)
+    print(told(found, chain=options.chain))
+    if options.write:
+        page.write("walk", f"`{options.deck.name}`: {told(found, chain=False)}.", options.write)
 
 
 if __name__ == "__main__":

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The walk of the plainest deck through the house: it enters no room of what it does not use."""
 
+from pathlib import Path
+
 import pytest
 
+import signorini
 from benchmarks import walk
-from tests.test_architecture import ROOT
 
+ROOT = Path(signorini.__file__).parent
 MOST_FILES = 125  # that a newcomer reads from a deck to its answer
 
 # what the paper's cylinder has not, and the folders and files that are there for it alone
