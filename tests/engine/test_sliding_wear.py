@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.engine import wear_steps
 from signorini.gallery.sliding import driven_wheel
 from signorini.gallery.wearing import FRICTION, fretting, rubbed_cylinder, to_and_fro
 
@@ -120,11 +121,11 @@ def test_sides_that_slid_and_wore_go_on_to_the_last_bit(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_cycles_go_through_the_strides_of_the_last_one() -> None:
-    """On the condensed interface as with all that is known of bodies, but for how far pairs have drifted."""
-    fast = sg.Wear(1.9e-6, mortar=2.9e-6)
+    """As with all that is known of bodies, but for how far pairs have drifted; work of friction wears as Archard's."""
+    archard, energy = sg.Wear(1.9e-6, mortar=2.9e-6), sg.Wear(energy=1.9e-6 / FRICTION, mortar=2.9e-6 / FRICTION)
     seen, unseen = (
-        sg.solve(rubbed_cylinder(fretting(4, **way), wear=fast, spacing=0.1, stroke=0.02, sliding="finite"))
-        for way in ({"at": "events"}, {})
+        sg.solve(rubbed_cylinder(fretting(4, **way), wear=wear, spacing=0.1, stroke=0.02, sliding="finite"))
+        for wear, way in ((archard, {"at": "events"}), (energy, {}))
     )
     one, two = (solution.end.state.wear for solution in (seen, unseen))
     assert [cycle.number for cycle in unseen.last.cycles] == [1, 2, 4]
@@ -133,3 +134,37 @@ def test_cycles_go_through_the_strides_of_the_last_one() -> None:
     assert unseen.last.work == pytest.approx(seen.last.work, rel=1e-3)
     assert abs(unseen.last.energy_defect) < 1e-12 * unseen.last.work
     assert unseen.last.certificate.passed
+
+
+@pytest.mark.slow
+def test_cycles_of_a_hub_on_its_shaft_recur_and_go_in_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An axisymmetric model: few cycles are followed with their bodies, and blocks of four are 2 % off or less."""
+    hub, whole = hub_on_shaft(), list[int]()
+    own = wear_steps.follow_sliding
+    monkeypatch.setattr(wear_steps, "follow_sliding", lambda *given: whole.append(1) or own(*given))
+
+    def worn(**way: object) -> tuple[sg.Solution, int]:
+        fit = sg.Step(name="fit", scale={"push": 0.0})
+        rub = sg.Step(name="rub", scale={"push": [1.0, 0.0]}, repeat=9, **way)  # type: ignore[arg-type]
+        whole.clear()
+        contact = replace(hub.contacts[0], wear=sg.Wear(1e-4, mortar=2e-4))
+        return sg.solve(replace(hub, contacts=[contact], steps=[fit, rub])), len(whole)
+
+    (every, few), (blocks, fewer) = worn(), worn(block=4)
+    assert max(few, fewer) < 2 + 3 * 9 / 2  # the fit; of a cycle to, fro and the wear
+    one, other = (solution.end.state.wear.depth for solution in (every, blocks))
+    assert 0.0 < np.abs(one - other).max() < 0.02 * one.max()
+    (note,) = (note for note in blocks.last.notes if note.startswith("sides wore in"))
+    assert note.startswith("sides wore in 4 blocks of up to 4 cycles and in 0 single ones")
+    fitted, rubs = blocks.steps
+    wear = blocks.end.state.wear
+    before = 3e-4 * fitted.dissipation / 0.2
+    assert wear.volume.sum() + wear.loose.sum() - before == pytest.approx(3e-4 * rubs.dissipation / 0.2, rel=1e-5)
+    assert abs(rubs.energy_defect) < 1e-12 * rubs.work
+
+
+def test_blocks_of_strides_that_do_not_recur_are_refused() -> None:
+    rub = sg.Step(name="rub", scale={"press": [1.0, 1.0], "drive": [1.0, 0.0]}, repeat=4, block=2)
+    with pytest.raises(sg.SolveFailed) as caught:
+        sg.solve(replace(block_on_bed("3d"), steps=[rub]))
+    assert str(caught.value).startswith("step 'rub': blocks of cycles that slide far need strides that recur: two dim")

@@ -139,8 +139,8 @@ class _Slip:
         (closed, p, h, ways), now, track, a = found, self.now, self.track, self.a
         way = (h - self.moved)[a:]
         distance = np.where(now.status != OPEN, -self.sign * way, 0.0)
-        rubs = 0.5 * (self.forces[0] + p) * distance
-        taken = track.friction * rubs
+        pressed = 0.5 * (self.forces[0] + p) * distance
+        taken = track.friction * pressed
         pairs = replace(
             now,
             r=np.array([p, self.sign * track.friction * p]),
@@ -152,7 +152,7 @@ class _Slip:
         gone = Gone(
             pairs=pairs,
             gap=self.gap,
-            rubs=rubs,
+            rubs=track.wearing(pressed, taken),
             distance=distance,
             travel=np.abs(way),
             spent=float(taken.sum()),
@@ -212,7 +212,7 @@ class _Slip:
         return replace(
             gone,
             pairs=replace(pairs, slip=slip, dissipation=pairs.dissipation + taken),
-            rubs=gone.rubs + piece,
+            rubs=gone.rubs + self.track.wearing(piece, taken),
             distance=gone.distance + slid,
             travel=gone.travel + np.abs(step),
             spent=gone.spent + float(taken.sum()),

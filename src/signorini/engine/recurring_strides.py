@@ -117,6 +117,10 @@ class Track:
         active = self.prepared.paths.active
         return self.sides.volume.toarray()[:, active] / self.prepared.interface.area[active]
 
+    def wearing(self, pressed: Array, taken: Array) -> Array:
+        """(a,) What wears pairs, of normal force times distance, and of energy that friction takes."""
+        return np.where(self.sides.by_energy[self.prepared.paths.active], taken, pressed)
+
     @cached_property
     def friction(self) -> Array:
         """(a,) Coulomb's coefficient."""

@@ -9,6 +9,7 @@ problem in the normal forces alone, followed from event to event; where the moti
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -44,6 +45,18 @@ class StrideCycle(PathCycle):
     gap: Array
     handed: float = 0.0
 
+    def repeated(self, before: PathCycle, others: int) -> Self:
+        """As of `PathCycle`, with what handing over sets free in all of them."""
+        assert isinstance(before, StrideCycle)
+        return replace(super().repeated(before, others), handed=self.handed + others * (self.handed - before.handed))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class StridesCycle(FollowedCycle):
+    """A cycle with the strides that it went through, and what each has left behind."""
+
+    strides: tuple[tuple[Track, Gone], ...]
+
 
 class SlidingCycles:
     """The strides of the cycles of a step.
@@ -52,11 +65,19 @@ class SlidingCycles:
     ----------
     prepared : with the pairs before anything moved
     strides : of the last cycle that was followed, at last home, in which its sides lost what it had rubbed off
+    recorded : number of cycles that were behind then
+    followed : number of cycles that were followed so far on the condensed interface
+
+    Attributes
+    ----------
+    recur : whether cycles can go through these strides again
     """
 
     stops: PathSettings | None = None
 
-    def __init__(self, prepared: Prepared, strides: list[Stride]) -> None:
+    def __init__(self, prepared: Prepared, strides: list[Stride], recorded: int, followed: int) -> None:
+        self.recorded, self.followed = recorded, followed
+        self._lost = False  # whether the last cycle drifted too far
         self._nominal = prepared
         tracks = [Track.of(stride) for stride in strides]
         self._home = tracks[-1]
@@ -67,6 +88,23 @@ class SlidingCycles:
         self._limit = stride_of(prepared)
         self.prepared = self._home.prepared
         self.sides: WornSides = self._home.sides
+
+    @property
+    def rate(self) -> Array:
+        """(m,) Depth over volume."""
+        return self.sides.depth(np.ones(len(self.sides)))
+
+    def rubs(self, cycle: FollowedCycle) -> Array:
+        """(m,) Volume that a cycle rubs off at the corners of the sides."""
+        return cycle.rubbing.volume
+
+    def volume(self, rubs: Array) -> Array:
+        """(m,) The same."""
+        return rubs
+
+    def expired(self, behind: int) -> bool:
+        """Whether bodies have drifted too far from strides that were recorded before so many cycles were behind."""
+        return self._lost and self.recorded < behind
 
     def begin(self, state: State) -> StrideCycle:
         """A whole state on the path: behind what its sides have lost."""
@@ -81,12 +119,15 @@ class SlidingCycles:
         assert isinstance(at, StrideCycle)
         n, active = len(self.prepared.interface), self.prepared.paths.active
         pairs, total, volume = self._home.pairs(at.now, at.gap, 1), None, np.zeros(len(self.sides))
+        self.followed, self._lost, strides = self.followed + 1, False, list[tuple[Track, Gone]]()
         for link in self._links:
             ends = link.next is not self._home
             gone = self._stride(link, pairs, at.wear.depth, goes=ends)
-            if gone is None or (ends and self._drifted(link.next, gone.pairs)):
+            self._lost = gone is not None and ends and self._drifted(link.next, gone.pairs)
+            if gone is None or self._lost:
                 return None
             pairs = gone.pairs
+            strides.append((link.next, gone))
             volume += link.next.wears @ gone.rubs
             total = gone if total is None else total.and_then(gone)
         assert total is not None
@@ -106,7 +147,7 @@ class SlidingCycles:
             pivots=at.pivots + total.pivots,
             residual=max(at.residual, total.residual),
         )
-        return FollowedCycle(before=at, after=reached, rubbing=rubbing, turns=(at.now, now))
+        return StridesCycle(before=at, after=reached, rubbing=rubbing, turns=(at.now, now), strides=tuple(strides))
 
     def worn(self, at: PathCycle, wear: WearState) -> StrideCycle | None:
         """Sides that lose material at the loads of the moment, to a state of wear; None where no path leads there."""
@@ -201,7 +242,7 @@ class SlidingCycles:
         freed = link.set_free(pairs, forces, handed, float(taken.sum()))
         mean = 0.5 * (track.friction * (forces[0] + r[0]))
         distance = np.divide(taken, mean, out=np.zeros(a), where=mean > 0.0)
-        rubs = taken if self.sides.by_energy.any() else 0.5 * (forces[0] + r[0]) * distance
+        rubs = track.wearing(0.5 * (forces[0] + r[0]) * distance, taken)
         return Gone(
             pairs=handed,
             gap=gap,

@@ -13,17 +13,21 @@ equation has no answer near by, and errors stop falling. Such a block is given u
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, Protocol
 
 import numpy as np
 
 from signorini.arrays import Array
 from signorini.engine.rubbing import worn
-from signorini.engine.wear_correction import corrected
-from signorini.engine.wear_paths import FollowedCycle, PathCycle, WornPaths
+from signorini.engine.wear_paths import FollowedCycle, PathCycle
 from signorini.interface.worn_sides import WornSides
 from signorini.linalg.anderson import anderson
+from signorini.solution.wear_state import WearState
+
+TOLERANCE_OF_DEPTH = 1e-2
+"""Of ``block = "auto"``, where the step gives none: of the largest depth that a block wears."""
 
 _SETTLED = 1e-5  # of what the most worn pair loses in a block: how well the equation of a block is solved
 _SETTLED_SHARE = 0.1  # of the tolerance of automatic blocks: the same, and what is left wears with the next block
@@ -38,6 +42,44 @@ _MOST_COST = 1.1  # cycles followed over cycles gone, from which on automatic bl
 _MOST_LOST = 0.5  # of the cycles gone: so many may be lost on blocks of a given length that are not found
 _FREE = 10  # cycles that may be lost before that counts
 _UNSTABLE = 1.0  # of what a cycle wears: where the next one differs by more, single cycles are implicit too
+
+
+class BlockPaths(Protocol):
+    """Cycles on the condensed interface, as blocks of them ask for.
+
+    Attributes
+    ----------
+    followed : number of cycles that were followed so far
+    """
+
+    followed: int
+
+    @property
+    def sides(self) -> WornSides:
+        """Sides that wear."""
+
+    @property
+    def rate(self) -> Array:
+        """Depth over each number of what a cycle rubs."""
+
+    def cycle(self, before: PathCycle, number: int, /) -> FollowedCycle | None:
+        """A cycle, by its number; None where no path leads through it."""
+
+    def worn(self, at: PathCycle, wear: WearState, /) -> PathCycle | None:
+        """Sides that lose material, to a state of wear; None where no path leads there."""
+
+    def rubs(self, cycle: FollowedCycle, /) -> Array:
+        """What a cycle rubs: the unknown of a block."""
+
+    def volume(self, rubs: Array, /) -> Array:
+        """(m,) What that takes from the corners of the sides."""
+
+    def expired(self, behind: int, /) -> bool:
+        """Whether the last cycle failed for pairs that were found before so many cycles were behind."""
+
+
+Correct = Callable[[FollowedCycle, Array, int], Array]
+"""What every one of N cycles rubs, of a cycle, what it was worn by since the first of them, and N: a Newton step."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -61,15 +103,17 @@ class CycleBlocks:
 
     Attributes
     ----------
-    paths : the cycles
+    paths : the cycles, as they are followed at the moment
     most : cycles of a block; None where that is found by the tolerance
     tolerance : of automatic blocks: error of a block over what it wears
     blocks, singles : numbers of blocks, and of cycles that had to go by themselves
     longest : cycles of a block
     """
 
-    def __init__(self, paths: WornPaths, block: int | Literal["auto"], tolerance: float) -> None:
-        self.paths, self.tolerance = paths, tolerance
+    def __init__(
+        self, paths: BlockPaths, correct: Correct, block: int | Literal["auto"], tolerance: float | None
+    ) -> None:
+        self.paths, self.correct, self.tolerance = paths, correct, tolerance or TOLERANCE_OF_DEPTH
         self.most = None if block == "auto" else block
         self.blocks, self.singles, self.longest = 0, 0, 0
         self._known: FollowedCycle | None = None
@@ -77,19 +121,21 @@ class CycleBlocks:
         self._count, self._least = 1, _LEAST_BLOCK
         self._lost = 0
 
-    def next(self, at: PathCycle, behind: int, room: int) -> CycleBlock | None:
+    def next(self, paths: BlockPaths, at: PathCycle, behind: int, room: int) -> CycleBlock | None:
         """The next block; None where its first cycle is to go by itself.
 
         Parameters
         ----------
+        paths : the cycles from here on
         at : where the step stands
         behind : cycles so far
         room : cycles to the next that is kept
         """
+        self.paths = paths
         found = self._given(at, behind, room) if self.most else self._automatic(at, behind, room)
         if found is not None:
             self.blocks, self.longest = self.blocks + 1, max(self.longest, found.count)
-            self._known, self._since = found.cycle, np.zeros(len(found.cycle.rubbing.wearing))
+            self._known, self._since = found.cycle, np.zeros(len(self.paths.rate))
         return found
 
     def single(self, cycle: FollowedCycle | None) -> None:
@@ -99,7 +145,7 @@ class CycleBlocks:
             self._count, self._least = self._wanted(1, change), 1 if change > _UNSTABLE else _LEAST_BLOCK
         self._known = cycle
         if cycle is not None:
-            self._since = cycle.rubbing.wearing
+            self._since = self.paths.rubs(cycle)
         self.singles += 1
 
     @property
@@ -116,6 +162,8 @@ class CycleBlocks:
         asked = count = min(self._count, room)
         found = self._solved(at, behind, count, _SETTLED)
         while found is None and count > 1:
+            if self.paths.expired(behind):
+                return None
             count //= 2
             found = self._solved(at, behind, count, _SETTLED)
         failed = found is None or count < asked
@@ -130,6 +178,8 @@ class CycleBlocks:
         while count >= self._least:
             found = self._solved(at, behind, count, _SETTLED_SHARE * self.tolerance)
             if found is None:
+                if self.paths.expired(behind):
+                    return None
                 count = self._count = count // 2
                 continue
             change = self._change(found.cycle)
@@ -142,8 +192,7 @@ class CycleBlocks:
     def _change(self, cycle: FollowedCycle) -> float:
         """How much else a cycle wears than the one known before it, of the most that a pair wears."""
         assert self._known is not None
-        rate = self.paths.sides.rate
-        now, then = rate * cycle.rubbing.wearing, rate * self._known.rubbing.wearing
+        now, then = (self.paths.rate * self.paths.rubs(each) for each in (cycle, self._known))
         return float(np.abs(now - then).max() / max(now.max(), np.finfo(float).tiny))
 
     def _wanted(self, count: int, change: float) -> int:
@@ -152,61 +201,54 @@ class CycleBlocks:
         return max(1, int(count * growth))
 
     def _solved(self, at: PathCycle, behind: int, count: int, settled: float) -> CycleBlock | None:
-        paths, known, before = self.paths, self._known, self.paths.followed
-        none = np.zeros(len(paths.sides.by_energy))
-        guess = none if known is None else corrected(paths, known, -self._since, count)
-        found = implicit_block(paths, at, behind + count, count, guess, settled)
+        known, before = self._known, self.paths.followed
+        guess = np.zeros(len(self.paths.rate)) if known is None else self.correct(known, -self._since, count)
+        found = implicit_block(self.paths, self.correct, (at, behind), count, guess, settled)
         if found is None:
             self._lost += self.paths.followed - before
         return found
 
 
 def implicit_block(
-    paths: WornPaths, at: PathCycle, last: int, count: int, guess: Array, settled: float
+    paths: BlockPaths, correct: Correct, begin: tuple[PathCycle, int], count: int, guess: Array, settled: float
 ) -> CycleBlock | None:
-    """A block of cycles that ends with a cycle; None where it is not found.
+    """A block of cycles; None where it is not found.
 
     Parameters
     ----------
-    paths, at : the cycles, and where the step stands before the block
-    last : number of its last cycle
+    paths, correct : the cycles, and their Newton step
+    begin : where the step stands before the block, and how many cycles are behind
     count : of cycles
-    guess : (n,) what a cycle rubs
-    settled : error of the equation of the block, over what the most worn pair loses in it
+    guess : what a cycle rubs
+    settled : error of the equation of the block, over what the most worn place loses in it
     """
-    sides, rubs, best = paths.sides, guess, np.inf
+    (at, behind), rubs, best = begin, guess, np.inf
     inputs, outputs = list[Array](), list[Array]()
     for tries in range(_CYCLES):
-        wear = worn(sides, replace(at.wear, loose=at.wear.loose + count * (sides.volume @ rubs)), cycles=count)
-        moved = paths.worn(at, wear)
-        cycle = None if moved is None else paths.cycle(moved, last)
+        loose = at.wear.loose + count * paths.volume(rubs)
+        moved = paths.worn(at, worn(paths.sides, replace(at.wear, loose=loose), cycles=count))
+        cycle = None if moved is None else paths.cycle(moved, behind + count)
         if cycle is None:
             return None
-        grown = sides.rate * cycle.rubbing.wearing
-        error, most = float(np.abs(grown - sides.rate * rubs).max()), grown.max(initial=0.0)
+        grown = paths.rate * paths.rubs(cycle)
+        error, most = float(np.abs(grown - paths.rate * rubs).max()), grown.max(initial=0.0)
         if error <= settled * most:
-            return CycleBlock(count=count, cycle=cycle, done=_repeated(sides, cycle, rubs, count))
+            return CycleBlock(count=count, cycle=cycle, done=_repeated(paths, cycle, rubs, count))
         best = min(best, error / max(most, np.finfo(float).tiny))
         if best > _FALL ** (tries - 1):
             return None
-        inputs, outputs = [*inputs, rubs], [*outputs, corrected(paths, cycle, count * rubs, count)]
+        inputs, outputs = [*inputs, rubs], [*outputs, correct(cycle, count * rubs, count)]
         inputs, outputs = inputs[-_LOOKS_BACK - 1 :], outputs[-_LOOKS_BACK - 1 :]
-        rubs = np.maximum(anderson(inputs, outputs, sides.rate, rcond=_RESOLVED), 0.0)
+        rubs = np.maximum(anderson(inputs, outputs, paths.rate, rcond=_RESOLVED), 0.0)
     return None
 
 
-def _repeated(sides: WornSides, cycle: FollowedCycle, rubs: Array, count: int) -> PathCycle:
-    """The end of a block whose last cycle stands for all of them; ``rubs`` (n,) is what each has worn."""
-    moved, done, rubbing, others = cycle.before, cycle.after, cycle.rubbing, count - 1
-    dissipation = done.now.dissipation + others * (done.now.dissipation - moved.now.dissipation)
+def _repeated(paths: BlockPaths, cycle: FollowedCycle, rubs: Array, count: int) -> PathCycle:
+    """The end of a block whose last cycle stands for all of them; ``rubs`` is what each has worn."""
+    done, rubbing, others = cycle.after.repeated(cycle.before, count - 1), cycle.rubbing, count - 1
     wear = replace(
         done.wear,
         distance=done.wear.distance + others * rubbing.distance,
-        loose=done.wear.loose + others * rubbing.volume - count * (sides.volume @ rubs),
+        loose=done.wear.loose + others * rubbing.volume - count * paths.volume(rubs),
     )
-    return replace(
-        done,
-        now=replace(done.now, dissipation=dissipation),
-        wear=wear,
-        spent=done.spent + others * (done.spent - moved.spent),
-    )
+    return replace(done, wear=wear)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -42,6 +43,21 @@ class PathCycle:
     energy: float = 0.0
     pivots: int = 0
     residual: float = 0.0
+
+    def repeated(self, before: PathCycle, others: int) -> Self:
+        """The end of a cycle that others are like.
+
+        Parameters
+        ----------
+        before : where it began
+        others : how many more
+        """
+        dissipation = self.now.dissipation + others * (self.now.dissipation - before.now.dissipation)
+        return replace(
+            self,
+            now=replace(self.now, dissipation=dissipation),
+            spent=self.spent + others * (self.spent - before.spent),
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -94,6 +110,23 @@ class WornPaths:
         self._first = ends(stage.ends[:m])
         alike = stage.ends[:m] == stage.ends[m : 2 * m]
         self._others = self._first if alike else ends(stage.ends[m : 2 * m])
+
+    @property
+    def rate(self) -> Array:
+        """(n,) What the gap of a pair grows by over what it rubs."""
+        return self.sides.rate
+
+    def rubs(self, cycle: FollowedCycle) -> Array:
+        """(n,) What a cycle rubs, of every pair."""
+        return cycle.rubbing.wearing
+
+    def volume(self, rubs: Array) -> Array:
+        """(m,) What that takes from the corners of the sides."""
+        return np.asarray(self.sides.volume @ rubs)
+
+    def expired(self, behind: int) -> bool:  # noqa: ARG002
+        """Pairs that stay are never out of place."""
+        return False
 
     def begin(self, state: State) -> PathCycle:
         """A whole state on the path."""

@@ -17,6 +17,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.attempt import MethodRun
+from signorini.engine import stride_correction, wear_correction
 from signorini.engine.cycles import cycle_between
 from signorini.engine.events import stops_at
 from signorini.engine.prepare import Prepared
@@ -43,9 +44,6 @@ from signorini.model.stage import Stage
 from signorini.outcome import Outcome
 from signorini.solution.certificate import worst_of
 from signorini.solution.state import LoadPoint, State, wear_of
-
-TOLERANCE_OF_DEPTH = 1e-2
-"""Of ``block = "auto"``, where the step gives none: of the largest depth that a block wears."""
 
 _SAME_TIME = 1e-9  # of a step: times asked for that are closer to the end of a cycle are there
 
@@ -120,10 +118,16 @@ class _Walk:
             stops = stops_at(SPACE_INCREMENTS, self.prepared.settings)
         return WornPaths(self.prepared, self.stage, self.start, self.end, stops)
 
-    def cycle(self, number: int) -> FollowedCycle | None:
-        """A cycle, and its wear at its end; given where it went on the condensed interface alone."""
+    def cycle(self, number: int, *, anew: bool = False) -> FollowedCycle | None:
+        """A cycle, and its wear at its end; given where it went on the condensed interface alone.
+
+        Parameters
+        ----------
+        number : of the cycle
+        anew : with its bodies, whatever strides are known
+        """
         paths = self.paths
-        if paths is not None and not self._kept(number):
+        if paths is not None and not anew and not self._kept(number):
             found = paths.cycle(self._on_path(number - 1), number)
             moved = None if found is None else paths.worn(found.after, worn(self.sides, found.after.wear, cycles=1))
             if moved is not None:
@@ -134,45 +138,69 @@ class _Walk:
         begin, (parts, interval) = self.state, self._cycle_parts(number)
         parts.append(self._worn(interval))
         self._keep(joined(parts), begin, number)
-        self._record()
+        self._record(number)
         return None
 
-    def _record(self) -> None:
-        """Cycles like the one that was followed go through its strides again."""
-        self._recurring = None
+    def _record(self, behind: int) -> None:
+        """Cycles like the one that was followed go through its strides again; so many are behind."""
+        followed, self._recurring = 0 if self._recurring is None else self._recurring.followed, None
+        if self._may_recur and self._strides:
+            found = SlidingCycles(self.prepared, self._strides, behind, followed)
+            self._recurring = found if found.recur else None
+
+    @cached_property
+    def _may_recur(self) -> bool:
+        """Whether strides of a cycle may be those of the next."""
         step, start, stage = self.stage.step, self.start.point, self.stage
         m = step.segments
         steady = np.array_equal(start.gap, self.end.gap) and not start.given.any() and not start.reaction.any()
         alike = stage.ends[:m] == stage.ends[m : 2 * m]
         exact = step.increments is None and step.path != "increments" and self.prepared.interface.directions == 2
         looked_at = step.at == "events" or self.heated or self.prepared.turns
-        if looked_at or not (self._strides and steady and alike and exact):
-            return
-        found = SlidingCycles(self.prepared, self._strides)
-        self._recurring = found if found.recur else None
+        return steady and alike and exact and not looked_at
 
     def blocks(self) -> None:
         """The step in implicit blocks, which end at the latest where a cycle is kept."""
-        step = self.stage.step
-        assert step.block is not None
-        if self.prepared.model.slides:
-            words = "blocks of cycles are for sides that slide a little; expected cycles one by one, without 'block'"
-            raise SolveFailed(f"{self.stage.name}: {words}", status=Outcome.NOT_FOUND)
-        if self._of_pairs_that_stay is None:
-            words = "blocks of cycles need exact paths; expected no 'increments', and no results at events"
-            raise SolveFailed(f"{self.stage.name}: {words}", status=Outcome.NOT_FOUND)
-        blocks = CycleBlocks(self._of_pairs_that_stay, step.block, step.tolerance or TOLERANCE_OF_DEPTH)
-        behind = 0
+        step, behind, blocks = self.stage.step, 0, None
+        self._refuse_blocks()
         while behind < step.repeat:
-            room = next(number for number in range(behind + 1, step.repeat + 1) if self._kept(number)) - behind
-            block = blocks.next(self._on_path(behind), behind, room)
-            if block is None:
-                behind += 1
-                blocks.single(self.cycle(behind))
-            else:
+            paths, block, anew = self.paths, None, False
+            if paths is not None:
+                blocks = blocks or self._blocks_of(paths)
+                room = next(number for number in range(behind + 1, step.repeat + 1) if self._kept(number)) - behind
+                block = blocks.next(paths, self._on_path(behind), behind, room)
+                anew = paths.expired(behind)
+            if block is not None:
                 behind += block.count
                 self._take(block, behind)
-        self.behind[-1] = replace(self.behind[-1], notes=(*self.behind[-1].notes, blocks.note))
+                continue
+            behind += 1
+            cycle = self.cycle(behind, anew=anew)
+            if blocks is not None:
+                blocks.single(cycle)
+        note = "no cycle goes through the strides of another: every one was followed" if blocks is None else blocks.note
+        self.behind[-1] = replace(self.behind[-1], notes=(*self.behind[-1].notes, note))
+
+    def _blocks_of(self, paths: WornPaths | SlidingCycles) -> CycleBlocks:
+        step = self.stage.step
+        assert step.block is not None
+        if isinstance(paths, WornPaths):
+            return CycleBlocks(paths, partial(wear_correction.corrected, paths), step.block, step.tolerance)
+        return CycleBlocks(paths, stride_correction.corrected, step.block, step.tolerance)
+
+    def _refuse_blocks(self) -> None:
+        """Blocks of cycles that could only go with all that is known of bodies."""
+        words = ""
+        if self.prepared.model.slides:
+            if not self._may_recur:
+                words = (
+                    "blocks of cycles that slide far need strides that recur: two dimensions, exact paths, no results "
+                    "at events, no temperature, no body that turns, and cycles alike; expected that, or no 'block'"
+                )
+        elif self._of_pairs_that_stay is None:
+            words = "blocks of cycles need exact paths; expected no 'increments', and no results at events"
+        if words:
+            raise SolveFailed(f"{self.stage.name}: {words}", status=Outcome.NOT_FOUND)
 
     def _take(self, block: CycleBlock, behind: int) -> None:
         """Go to the end of a block; where its last cycle is kept, with all that is known of bodies and pairs."""
@@ -181,22 +209,29 @@ class _Walk:
             return
         self.at = block.cycle.before
         self._whole(behind - 1)
-        begin, (parts, _) = self.state, self._cycle_parts(behind)
+        self._strides = []
+        begin, (parts, interval) = self.state, self._cycle_parts(behind)
         once, others = self.state, block.count - 1
         wear, before = wear_of(once), wear_of(begin)
-        taken = once.dissipation - begin.dissipation
+        taken, freed = once.dissipation - begin.dissipation, once.released - begin.released
+        last = block.cycle
+        lost = last.after.wear.loose + others * last.rubbing.volume - block.done.wear.loose
         self.state = replace(
             once,
             dissipation=once.dissipation + others * taken,
-            work=once.work + others * float(taken.sum()),
+            work=once.work + others * (float(taken.sum()) + freed),
+            released=once.released + others * freed,
             wear=replace(
                 wear,
                 distance=wear.distance + others * (wear.distance - before.distance),
-                loose=block.done.wear.loose,
+                loose=wear.loose + others * (wear.loose - before.loose) - lost,
             ),
         )
-        whole = joined(parts)
-        self._keep(ending(whole, self.state), begin, behind, cycle_end=once)
+        whole = ending(joined(parts), self.state)
+        if self.prepared.model.slides:  # the strides of the next cycles begin where sides have lost all
+            whole = joined([whole, self._worn(interval, cycles=0)])
+            self._record(behind)
+        self._keep(whole, begin, behind, cycle_end=once)
 
     def _on_path(self, behind: int) -> PathCycle:
         """Where the step stands on the condensed interface, so many cycles behind."""
@@ -304,10 +339,10 @@ class _Walk:
         self.state = followed.after
         return followed
 
-    def _worn(self, interval: Interval) -> FollowedPart:
-        """The sides lose what has rubbed, at the loads of the end of an interval."""
+    def _worn(self, interval: Interval, *, cycles: int = 1) -> FollowedPart:
+        """The sides lose what so many cycles have rubbed off, at the loads of the end of an interval."""
         old = self.state
-        wear = worn(self.sides, wear_of(old), cycles=1)
+        wear = worn(self.sides, wear_of(old), cycles=cycles)
         self.state = replace(old, wear=wear)
         lost = wear.depth - wear_of(old).depth
         still = replace(interval, low=interval.high, ends="wear", cycle=0, asked=False)
