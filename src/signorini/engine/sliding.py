@@ -358,8 +358,6 @@ def shortest_facet(prepared: Prepared) -> float:
     lengths = []
     for i, contact in enumerate(prepared.model.contacts):
         if contact.slides:
-            sides = [contact.nonmortar]
-            if isinstance(contact.mortar, str) and contact.mortar in prepared.model.mesh.boundaries:
-                sides.append(contact.mortar)
+            sides = contact.meshed_sides(prepared.model.mesh)
             lengths += [float(boundary(prepared.space, side, ("contact", i)).lengths.min()) for side in sides]
     return min(lengths)

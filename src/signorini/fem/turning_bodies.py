@@ -102,9 +102,9 @@ def _joined(space: Space, model: Model, parts: tuple[ConnectedBody, ...]) -> Int
         part_of[part.nodes] = i
     together: list[IntArray] = []
     for contact in model.contacts:
-        sides = [side for side in (contact.nonmortar, contact.mortar) if side in model.mesh.boundaries]
+        sides = contact.meshed_sides(model.mesh)
         if not contact.slides and len(sides) == 2:
-            together.append(np.concatenate([model.mesh.nodes_of(str(side)) for side in sides]))
+            together.append(np.concatenate([model.mesh.nodes_of(side) for side in sides]))
     for j in range(len(model.rigid_bodies)):
         nodes = rigid_nodes(space, model, j)
         part_of[_hub_place(space, model, j)] = part_of[nodes].max()
@@ -133,15 +133,15 @@ def _held(space: Space, model: Model) -> BoolArray:
             places = [on for on, _, _ in equation.terms]
             dofs += [place_dofs(space, model, on, ("equation", i, "terms", k)).ravel() for k, on in enumerate(places)]
     for contact in model.contacts:
-        if not contact.slides and contact.mortar not in model.mesh.boundaries:
+        if not contact.slides and len(contact.meshed_sides(model.mesh)) == 1:
             dofs.append(space.dofs(model.mesh.nodes_of(contact.nonmortar)).ravel())
     return among(dofs, space.number_of_dofs)
 
 
 def _sliding_nodes(model: Model, joined: IntArray) -> BoolArray:
     """(places,) Nodes of the sides of contacts that slide far."""
-    sides = [side for contact in model.contacts if contact.slides for side in (contact.nonmortar, contact.mortar)]
-    return among([model.mesh.nodes_of(str(side)) for side in sides if side in model.mesh.boundaries], len(joined))
+    sides = [side for contact in model.contacts if contact.slides for side in contact.meshed_sides(model.mesh)]
+    return among([model.mesh.nodes_of(side) for side in sides], len(joined))
 
 
 def _frame(space: Space, model: Model, group: _Group, held: BoolArray) -> BodyFrame | None:

@@ -29,9 +29,7 @@ def sliding_unknowns(space: Space, model: Model, frames: BodyFrames, transform: 
     """
     dofs: list[IntArray] = [np.empty(0, np.int64)]
     for contact in (contact for contact in model.contacts if contact.slides):
-        for side in (contact.nonmortar, contact.mortar):
-            if side in model.mesh.boundaries:
-                dofs.append(space.dofs(model.mesh.nodes_of(str(side))).ravel())
+        dofs += [space.dofs(model.mesh.nodes_of(side)).ravel() for side in contact.meshed_sides(model.mesh)]
         dofs += [space.obstacle_dofs(j) for j, rigid in enumerate(model.obstacles) if rigid.name == contact.mortar]
     dofs += [frame.reading.indices for frame in frames.frames]
     return np.unique(transform[np.concatenate(dofs)].indices)

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import math
-from collections.abc import Mapping
-from typing import Literal
+from collections.abc import Callable, Mapping
+from typing import Literal, NamedTuple, ParamSpec
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,6 +30,7 @@ from signorini.meshing.grids import (
 from signorini.model.mesh import Mesh
 
 Cells = Literal["quad", "triangle", "quad8", "quad9", "triangle6"]
+Sizes = ParamSpec("Sizes")
 
 
 def rectangle(
@@ -72,7 +75,22 @@ def rectangle(
     return mesh_of_grids([grid], grid_sides(grid), "block", family)
 
 
-def quarter_disk(
+class _Quarter(NamedTuple):
+    """A quarter disk.
+
+    Attributes
+    ----------
+    family : of its cells
+    grids : of their nodes, (m, n, 2) each, length
+    sides : nodes of its boundaries by name
+    """
+
+    family: str
+    grids: list[Array]
+    sides: Mapping[str, list[Array]]
+
+
+def _quarter(
     *,
     radius: float,
     contact_length: float,
@@ -80,7 +98,78 @@ def quarter_disk(
     refine: int = 1,
     cells: Cells = "quad",
     order: int = 1,
-) -> Mesh:
+) -> _Quarter:
+    """The quarter disk: grids along the contact, along the rest of the arc, and the core."""
+    family = cell_family(cells, order)
+    refine = whole(refine, ("mesh", "refine")) * grid_steps(family)
+    radius = number(radius, ("mesh", "radius"), above=0.0)
+    length = number(contact_length, ("mesh", "contact_length"), above=0.0)
+    spacing = number(contact_spacing, ("mesh", "contact_spacing"), above=0.0)
+    if length > 0.7 * radius:
+        raise InputError(
+            f"is {length:g}; expected at most 0.7 radius = {0.7 * radius:g}", where=("mesh", "contact_length")
+        )
+    check_grid(length / spacing * refine**2)
+    steps = round(length / spacing)
+    if steps < 1 or abs(steps * spacing - length) > 1e-9 * length:
+        raise InputError(
+            f"is {spacing:g}; expected a whole number of steps in the contact length {length:g}",
+            where=("mesh", "contact_spacing"),
+        )
+    edge = np.arcsin(length / radius)
+    fine = np.arcsin(np.linspace(0.0, length, steps * refine + 1) / radius)
+    fine[-1] = edge
+    last = edge - np.arcsin((length - spacing) / radius)
+    rest = edge + (np.pi / 2 - edge) * growing_fractions(last, np.pi / 2 - edge, refine, growth=4.0, largest=np.pi / 4)
+    depth = 0.35 * radius  # of the core, from the centre
+    layers = growing_fractions(0.5 * spacing, radius - depth, refine, growth=1.4, largest=radius / 4)
+    check_grid((len(fine) + len(rest)) * len(layers) + len(fine) * len(rest))
+    centre = np.array([0.0, radius])
+
+    def on_arc(angles: Array) -> Array:
+        return centre + radius * np.column_stack([np.sin(angles), -np.cos(angles)])
+
+    # the core: a quadrilateral, its corner on the ray through the end of the contact but never too flat
+    turn = np.clip(edge, np.radians(30.0), np.radians(45.0))
+    corner = centre + depth * np.array([np.sin(turn), -np.cos(turn)])
+    below = ruled(centre - [0.0, depth], corner, (fine - fine[0]) / (fine[-1] - fine[0]))
+    even = np.linspace(0.0, 1.0, len(rest))
+    beside = ruled(corner, centre + [depth, 0.0], even)
+    contact = ruled(on_arc(fine), below, layers)
+    back = ruled(on_arc(rest), beside, layers)
+    across = np.linspace(0.0, 1.0, len(fine))
+    upper = ruled(centre, centre + [depth, 0.0], across)
+    axis = ruled(centre - [0.0, depth], centre, even)
+    core = coons_patch(below, upper, axis, beside)
+    for grid in (contact, back, core):
+        grid[np.abs(grid[..., 0]) < 1e-12 * radius, 0] = 0.0
+        grid[np.abs(grid[..., 1] - radius) < 1e-12 * radius, 1] = radius
+    contact[0, 0] = 0.0  # the arc touches the foundation exactly
+    sides = {
+        "arc": [contact[0], back[0]],
+        "axis": [contact[:, 0], core[:, 0]],
+        "cut": [back[:, -1], core[-1]],
+    }
+    return _Quarter(family, [contact, back, core], sides)
+
+
+def _of(quarter: Callable[Sizes, _Quarter]) -> Callable[[Callable[[_Quarter], Mesh]], Callable[Sizes, Mesh]]:
+    """What is made of a quarter disk as a function of its sizes, whose names and defaults stand once."""
+
+    def with_sizes(make: Callable[[_Quarter], Mesh]) -> Callable[Sizes, Mesh]:
+        @functools.wraps(make)
+        def made(*sizes: Sizes.args, **named: Sizes.kwargs) -> Mesh:
+            return make(quarter(*sizes, **named))
+
+        signature = inspect.signature(quarter).replace(return_annotation="Mesh")
+        setattr(made, "__signature__", signature)  # noqa: B010  # read by decks, and by help
+        return made
+
+    return with_sizes
+
+
+@_of(_quarter)
+def quarter_disk(quarter: _Quarter) -> Mesh:
     """A quarter "disk" that touches the x axis at the origin: centre (0, radius), x >= 0, y <= radius.
 
     Boundaries: "arc" (the circle), "axis" (x = 0), "cut" (y = radius). An O-grid: equal steps along x up to
@@ -100,21 +189,11 @@ def quarter_disk(
     >>> quarter_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5)
     Mesh(93 nodes, 76 quads; bodies: disk; boundaries: arc, axis, cut)
     """
-    family = cell_family(cells, order)
-    refine = whole(refine, ("mesh", "refine")) * grid_steps(family)
-    grids, sides = _quarter(radius, contact_length, contact_spacing, refine)
-    return mesh_of_grids(grids, sides, "disk", family)
+    return mesh_of_grids(quarter.grids, quarter.sides, "disk", quarter.family)
 
 
-def half_disk(
-    *,
-    radius: float,
-    contact_length: float,
-    contact_spacing: float,
-    refine: int = 1,
-    cells: Cells = "quad",
-    order: int = 1,
-) -> Mesh:
+@_of(_quarter)
+def half_disk(quarter: _Quarter) -> Mesh:
     """The lower half "disk": a quarter disk and its mirror image, boundaries "arc" and "cut" (y = radius).
 
     Parameters
@@ -127,9 +206,7 @@ def half_disk(
     >>> half_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5)
     Mesh(177 nodes, 152 quads; bodies: disk; boundaries: arc, cut)
     """
-    family = cell_family(cells, order)
-    refine = whole(refine, ("mesh", "refine")) * grid_steps(family)
-    grids, sides = _quarter(radius, contact_length, contact_spacing, refine)
+    family, grids, sides = quarter
     mirror = np.array([-1.0, 1.0])
     both = [*grids, *(grid[:, ::-1] * mirror for grid in grids)]
     lines = {
@@ -239,58 +316,3 @@ def target(*, radii: ArrayLike, n: int, angle: float = 90.0, cells: Cells = "qua
         sides["start"] = [grids[0][0], grids[1][:, 0]]
         sides["end"] = [grids[-2][:, 0], grids[-1][:, -1]]
     return mesh_of_grids(grids, sides, "disk", family)
-
-
-def _quarter(
-    radius: float, contact_length: float, contact_spacing: float, refine: int
-) -> tuple[list[Array], Mapping[str, list[Array]]]:
-    """Grids and sides of the quarter disk: along the contact, along the rest of the arc, and the core."""
-    radius = number(radius, ("mesh", "radius"), above=0.0)
-    length = number(contact_length, ("mesh", "contact_length"), above=0.0)
-    spacing = number(contact_spacing, ("mesh", "contact_spacing"), above=0.0)
-    if length > 0.7 * radius:
-        raise InputError(
-            f"is {length:g}; expected at most 0.7 radius = {0.7 * radius:g}", where=("mesh", "contact_length")
-        )
-    check_grid(length / spacing * refine**2)
-    steps = round(length / spacing)
-    if steps < 1 or abs(steps * spacing - length) > 1e-9 * length:
-        raise InputError(
-            f"is {spacing:g}; expected a whole number of steps in the contact length {length:g}",
-            where=("mesh", "contact_spacing"),
-        )
-    edge = np.arcsin(length / radius)
-    fine = np.arcsin(np.linspace(0.0, length, steps * refine + 1) / radius)
-    fine[-1] = edge
-    last = edge - np.arcsin((length - spacing) / radius)
-    rest = edge + (np.pi / 2 - edge) * growing_fractions(last, np.pi / 2 - edge, refine, growth=4.0, largest=np.pi / 4)
-    depth = 0.35 * radius  # of the core, from the centre
-    layers = growing_fractions(0.5 * spacing, radius - depth, refine, growth=1.4, largest=radius / 4)
-    check_grid((len(fine) + len(rest)) * len(layers) + len(fine) * len(rest))
-    centre = np.array([0.0, radius])
-
-    def on_arc(angles: Array) -> Array:
-        return centre + radius * np.column_stack([np.sin(angles), -np.cos(angles)])
-
-    # the core: a quadrilateral, its corner on the ray through the end of the contact but never too flat
-    turn = np.clip(edge, np.radians(30.0), np.radians(45.0))
-    corner = centre + depth * np.array([np.sin(turn), -np.cos(turn)])
-    below = ruled(centre - [0.0, depth], corner, (fine - fine[0]) / (fine[-1] - fine[0]))
-    even = np.linspace(0.0, 1.0, len(rest))
-    beside = ruled(corner, centre + [depth, 0.0], even)
-    contact = ruled(on_arc(fine), below, layers)
-    back = ruled(on_arc(rest), beside, layers)
-    across = np.linspace(0.0, 1.0, len(fine))
-    upper = ruled(centre, centre + [depth, 0.0], across)
-    axis = ruled(centre - [0.0, depth], centre, even)
-    core = coons_patch(below, upper, axis, beside)
-    for grid in (contact, back, core):
-        grid[np.abs(grid[..., 0]) < 1e-12 * radius, 0] = 0.0
-        grid[np.abs(grid[..., 1] - radius) < 1e-12 * radius, 1] = radius
-    contact[0, 0] = 0.0  # the arc touches the foundation exactly
-    sides = {
-        "arc": [contact[0], back[0]],
-        "axis": [contact[:, 0], core[:, 0]],
-        "cut": [back[:, -1], core[-1]],
-    }
-    return [contact, back, core], sides

@@ -13,6 +13,7 @@ from signorini.arrays import Array
 from signorini.checks import choice, number, text, vector, whole
 from signorini.errors import InputError, Where
 from signorini.law.friction import Coulomb, FrictionLaw
+from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
 from signorini.model.varying import Varying, varying
 from signorini.model.wear import Wear
@@ -314,6 +315,11 @@ class Contact:
     def slides(self) -> bool:
         """Whether its pairs follow the bodies."""
         return self.sliding == "finite"
+
+    def meshed_sides(self, mesh: Mesh) -> tuple[str, ...]:
+        """The boundaries of a mesh among its sides, the nonmortar one first; an obstacle is none."""
+        sides = (self.nonmortar, self.mortar)
+        return tuple(side for side in sides if isinstance(side, str) and side in mesh.boundaries)
 
     @property
     def tied(self) -> bool:
