@@ -52,7 +52,7 @@ CORE = {
     "plasticity",
     "solution",
 }
-BELOW_CLI = BASE | CORE | {"engine", "deck", "output", "plot", "reference"}
+BELOW_CLI = BASE | CORE | {"engine", "vibration", "deck", "output", "plot", "reference"}
 
 # folder or file: what it may import besides itself and the base
 ALLOWED = {
@@ -70,6 +70,7 @@ ALLOWED = {
     "plasticity": {"model", "fem"},
     "solution": {"law", "model", "fem", "interface", "plasticity"},
     "engine": CORE,
+    "vibration": CORE | {"engine"},
     "deck": {"law", "model", "meshing", "fem"},
     "output": {"solution", "law", "model", "meshing", "fem", "plasticity"},
     "plot": {"solution", "law", "model", "output"},

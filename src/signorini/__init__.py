@@ -42,6 +42,8 @@ if TYPE_CHECKING:
     from signorini.model.varying import Along, ArcLength, Formula, NodeValues, Scattered
     from signorini.model.wear import Wear
     from signorini.settings import SolverSettings
+    from signorini.vibration.damping import joint_damping
+    from signorini.vibration.modes import natural_modes
 
 __all__ = [
     "Along",
@@ -88,10 +90,12 @@ __all__ = [
     "fatigue",
     "half_disk",
     "join",
+    "joint_damping",
     "lcp",
     "load",
     "mesh_profile",
     "mesh_surface",
+    "natural_modes",
     "paper",
     "prepare",
     "quarter_disk",
@@ -132,6 +136,8 @@ _HOMES = {
     "signorini.model.varying": ("Along", "ArcLength", "Formula", "NodeValues", "Scattered"),
     "signorini.model.wear": ("Wear",),
     "signorini.settings": ("SolverSettings",),
+    "signorini.vibration.damping": ("joint_damping",),
+    "signorini.vibration.modes": ("natural_modes",),
 }
 _MODULES = {"fatigue": "signorini.fatigue", "lcp": "signorini.lcp", "paper": "signorini.engine.paper"}
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

@@ -294,6 +294,18 @@ def shape_functions(family: str, at: Array) -> tuple[Array, Array]:
     return _shape(element, at, _meshio_order(family, element))
 
 
+def shapes_in_cells(family: str, degree: int) -> tuple[Array, Array, Array]:
+    """Shape functions (q, k) of a family, their gradients (q, k, d) and weights (q,) of a quadrature.
+
+    Parameters
+    ----------
+    family : of the cells
+    degree : of the polynomials that the quadrature integrates exactly
+    """
+    at, weights = _rule(_ELEMENTS[family].kind(), degree)
+    return *shape_functions(family, at), weights
+
+
 def _monomials(at: Array, of: tuple[tuple[int, ...], ...]) -> Array:
     """(points, monomials) at reference coordinates (d, points)."""
     powers = [np.prod([x**i for x, i in zip(at, each, strict=True)], axis=0) for each in of]
