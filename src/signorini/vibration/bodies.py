@@ -17,7 +17,6 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import Interface, make_interface, pairs_of
-from signorini.interface.sliding import slides
 from signorini.law.states import OPEN
 from signorini.model.model import Model
 from signorini.solution.checkpoint import Checkpoint
@@ -111,7 +110,7 @@ def _refuse(model: Model) -> None:
     if model.cyclic_symmetries:
         words = "gives modes alone that are the same in every sector; expected the whole body"
         raise InputError(words, where=("cyclic_symmetry", 0))
-    if slides(model):
+    if model.slides:
         i = next(i for i, contact in enumerate(model.contacts) if contact.slides)
         raise InputError('is "finite"; modes know pairs that stay', where=("contact", i, "sliding"))
 
