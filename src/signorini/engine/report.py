@@ -24,9 +24,9 @@ from signorini.model.links import directions
 from signorini.model.stage import Stage
 from signorini.solution import results
 from signorini.solution.certificate import worst_of
+from signorini.solution.contact_wear import ContactWear
 from signorini.solution.results import (
     ContactResult,
-    ContactWear,
     Instant,
     ObstacleResult,
     PlasticResult,

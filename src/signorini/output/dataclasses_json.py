@@ -41,6 +41,7 @@ _HOMES = (
     "signorini.solution.bolt_result",
     "signorini.solution.certificate",
     "signorini.solution.checkpoint",
+    "signorini.solution.contact_wear",
     "signorini.solution.history",
     "signorini.solution.results",
     "signorini.solution.scale",

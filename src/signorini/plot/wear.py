@@ -13,8 +13,9 @@ from signorini.errors import InputError
 from signorini.plot.curve import surface_coordinate
 from signorini.plot.picture_data import PictureData
 from signorini.plot.style import INK, PRESSURE, TRACTION, colour_bar, dress, entitle
+from signorini.solution.contact_wear import ContactWear
 from signorini.solution.history import History
-from signorini.solution.results import ContactResult, ContactWear
+from signorini.solution.results import ContactResult
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
