@@ -200,7 +200,7 @@ def keep_pairs(
     m, n = B.shape
     pair = len(points) + np.tile(np.arange(len(at)), m // max(1, len(at)))
     factorisation = factorise(
-        bordered(_held(K, rigid, stiffness), B),
+        bordered(held_by_springs(K, rigid, stiffness), B),
         np.arange(n, n + m),
         nodes=np.concatenate([nodes, pair]),
         points=np.concatenate([points, at]),
@@ -210,8 +210,13 @@ def keep_pairs(
     return ByPairs(factorisation=factorisation, rows=np.arange(m), B=B, rigid=rigid)
 
 
-def _held(K: sp.csr_array, rigid: Array, stiffness: float) -> sp.csr_array:
-    """K with a spring on one dof for each rigid motion, dofs that are far apart."""
+def held_by_springs(K: sp.csr_array, rigid: Array, stiffness: float) -> sp.csr_array:
+    """K with a spring on one dof for each rigid motion, dofs that are far apart.
+
+    Parameters
+    ----------
+    K, rigid, stiffness : as of `keep_pairs`
+    """
     if not rigid.shape[1]:
         return K
     basis = scipy.linalg.qr(rigid, mode="economic")[0]

@@ -80,7 +80,7 @@ def along(
     if points.shape[1] != space.dimension:
         raise InputError(f"points have {points.shape[1]} coordinates; expected {space.dimension}")
     moved, stressed = np.zeros_like(points), np.zeros((len(points), 6))
-    for block, index, cells, values in _located(space, model, points, names.index(body)):
+    for block, index, cells, values in located(space, model, points, names.index(body)):
         moved[index] = np.einsum("nk,nki->ni", values, displacement[block.cells[cells]])
         stressed[index] = np.einsum("nk,nki->ni", values, stress[block.cells[cells]])
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
@@ -93,8 +93,20 @@ def along(
     )
 
 
-def _located(space: Space, model: Model, points: Array, body: int) -> Iterator[tuple[Block, IntArray, IntArray, Array]]:
-    """For every block: which points are in its cells, in which, and the shape functions there."""
+def located(space: Space, model: Model, points: Array, body: int) -> Iterator[tuple[Block, IntArray, IntArray, Array]]:
+    """For every block: which points are in its cells, in which, and the shape functions there.
+
+    Parameters
+    ----------
+    space, model : through which points are looked for
+    points : (n, d) undeformed coordinates, length
+    body : index of the body that they are in
+
+    Raises
+    ------
+    InputError
+        If a point lies outside it: its number is said.
+    """
     owner = model.body_of_cells()
     beside = np.full(len(points), np.inf)
     best: list[tuple[Block, IntArray, IntArray, Array]] = []

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -155,7 +155,11 @@ def body_stresses(
 
 
 def nodal_averages(
-    space: Space, model: Model, at_best: Callable[[Group], Array], components: int
+    space: Space,
+    model: Model,
+    at_best: Callable[[Group], Array],
+    components: int,
+    within: Sequence[Group] | None = None,
 ) -> list[tuple[IntArray, Array]]:
     """Sorted nodes (k,) of every body and values there (k, components), averaged with the areas of the cells.
 
@@ -164,10 +168,11 @@ def nodal_averages(
     space, model : of the bodies
     at_best : values (m, p, components) of a group at the best points of its cells
     components : of a value
+    within : the cells that are looked at; all if not given
     """
     count = len(space.mesh.points)
     total, weight = np.zeros((len(model.bodies), count, components)), np.zeros((len(model.bodies), count))
-    for group in groups(space, model):
+    for group in groups(space, model) if within is None else within:
         cells = group.cells
         at_nodes = np.einsum("kq,mqc->mkc", group.block.to_nodes, at_best(group))
         area = space.volumes_of(group.block)[group.index].sum(axis=1)

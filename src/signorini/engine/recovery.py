@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Displacements of the bodies at moments of a history of which the forces of the contacts alone were kept.
+
+    K u = f + B^T r
+
+is all of it: r are the forces of the pairs, f the loads. What nothing but contact holds is found but for a rigid
+motion, which strains nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array
+from signorini.condense.response import held_by_springs
+from signorini.engine.examine import Examined, examine
+from signorini.errors import InputError
+from signorini.fem.rigid import free_motions
+from signorini.fem.stiffness import reduced_stiffness, stiffness
+from signorini.linalg.protocol import Factorisation
+from signorini.linalg.registry import factorise
+from signorini.linalg.threads import one_thread
+from signorini.model.model import Model
+from signorini.solution.results import Instant, StepResult
+
+_AT_ONCE = 32  # moments that are solved for together: so many displacements of all nodes are in memory
+_AGREEMENT_TOL = 1e-6  # of the largest nodal force: how far what is found may be from the state that was kept
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Recovery:
+    """The bodies of a model, factorised without contact.
+
+    Attributes
+    ----------
+    examined : the model
+    K : (dofs, dofs) stiffness of bodies and foundations
+    factorisation : of the free displacements
+    """
+
+    examined: Examined
+    K: sp.csr_array
+    factorisation: Factorisation
+
+    @classmethod
+    @one_thread()
+    def of(cls, model: Model) -> Recovery:
+        """Assemble and factorise; free motions are held by springs, which carry nothing under balanced forces.
+
+        Raises
+        ------
+        InputError
+            If displacements of the model do not follow from the forces of its contacts alone.
+        """
+        _refuse(model)
+        examined = examine(model)
+        constraints, T = examined.constraints, examined.constraints.transform
+        K = stiffness(examined.space, model)
+        for springs in constraints.springs.values():
+            K = sp.csr_array(K + springs.T @ springs)
+        free = free_motions(examined.motions, constraints, examined.interface.B[[]])
+        rigid = (examined.motions @ free)[constraints.leaders]
+        held = held_by_springs(reduced_stiffness(K, T), rigid, examined.scale.stiffness)
+        found = factorise(held, [], nodes=constraints.nodes, points=examined.space.places)
+        return cls(examined=examined, K=K, factorisation=found)
+
+    @one_thread()
+    def displacements(self, step: StepResult, moments: Sequence[Instant]) -> Iterator[Array]:
+        """Displacements (nodes, d) at moments of a step, some at once; compared with those at its end, which are kept.
+
+        Raises
+        ------
+        InputError
+            If what is found there is not what was kept.
+        """
+        where = ("step", step.name, "at")
+        asked = [*moments, step.instants[-1]]
+        cuts = [*range(0, len(asked), _AT_ONCE), len(asked)]
+        for low, high in pairwise(cuts):
+            columns = self._solved(asked[low:high])
+            for u in columns.T[: len(moments) - low]:
+                yield self.examined.space.at_nodes(u)
+            if high == len(asked) and not self._agrees(columns[:, -1], step, asked[-1]):
+                raise InputError(
+                    'the displacements on the way do not follow from loads and contacts alone; expected at = "events", '
+                    "which keeps them",
+                    where=where,
+                )
+
+    def _solved(self, moments: Sequence[Instant]) -> Array:
+        """(dofs, k) Displacements of all dofs at k moments."""
+        examined, constraints = self.examined, self.examined.constraints
+        loads = np.column_stack([self._loads(moment) for moment in moments])
+        imposed = np.column_stack(
+            [
+                sum((moment.factors[name] * u for name, u in constraints.prescribed.items()), np.zeros(len(loads)))
+                for moment in moments
+            ]
+        )
+        given = loads - self.K @ imposed if imposed.any() else loads
+        reduced = self.factorisation.reduce(examined.constraints.on_free(given))
+        free = reduced.expand(reduced.load)
+        return np.asarray(constraints.transform @ free + imposed)
+
+    def _loads(self, moment: Instant) -> Array:
+        """(dofs,) Loads and forces of the pairs on the bodies."""
+        interface, space = self.examined.interface, self.examined.space
+        forces = np.zeros((interface.directions, len(interface)))
+        for i, contact in enumerate(moment.contacts):
+            own = interface.contact == i
+            forces[0, own] = contact.area * contact.pressure
+            forces[1:, own] = (contact.area * contact.traction.T).reshape(interface.directions - 1, -1)
+        loads = (moment.factors[name] * f for name, f in self.examined.loads.items())
+        return np.asarray(sum(loads, np.zeros(space.number_of_dofs)) + interface.on_bodies(forces))
+
+    def _agrees(self, found: Array, step: StepResult, end: Instant) -> bool:
+        """Whether displacements mean the same nodal forces as those at the end of a step; rigid motions make none."""
+        kept = found.copy()
+        kept[: step.displacement.size] = step.displacement.ravel()
+        forces = self.K @ found
+        size = max(float(np.abs(forces).max(initial=0.0)), float(np.abs(self._loads(end)).max(initial=0.0)))
+        return bool(np.abs(self.K @ kept - forces).max(initial=0.0) <= _AGREEMENT_TOL * size)
+
+
+def _refuse(model: Model) -> None:
+    """Refuse models whose displacements depend on more than loads and forces of the contacts.
+
+    Raises
+    ------
+    InputError
+        With what they depend on.
+    """
+    changes = any(step.release or step.hold or step.restore for step in model.steps)
+    why = {
+        "plastic flow": model.yields,
+        "pairs that follow the bodies": model.slides,
+        "bolts": bool(model.bolts),
+        "supports that let go or hold again": changes,
+    }
+    for words, has in why.items():
+        if has:
+            raise InputError(
+                f'the displacements on the way depend on {words}; expected at = "events", which keeps them',
+                where=("step",),
+            )

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Stresses at places over steps of a history, at every moment between which an exact path is linear."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache, partial
+
+import numpy as np
+
+from signorini.arrays import Array, frozen
+from signorini.engine.recovery import Recovery
+from signorini.errors import InputError, one_of
+from signorini.fem.kinematics import Group
+from signorini.fem.probe import StressProbe
+from signorini.fem.stress import DeformedBodies, at_best_points
+from signorini.plasticity.fields import by_family
+from signorini.solution.history import History
+from signorini.solution.results import Instant, StepResult
+from signorini.solution.stress_history import StressHistory
+
+_SAME_LOAD = 1e-9  # of a step: where a cycle begins
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Span:
+    """The part of a step that is looked at: all of it, or the last cycle where it repeats.
+
+    Attributes
+    ----------
+    step : that is looked at
+    before : the step whose end it begins with; None where it begins with bodies at rest, or within the step
+    at_rest : whether it begins with bodies at rest
+    moments : of the step, in order, the end last
+    """
+
+    step: StepResult
+    before: StepResult | None
+    at_rest: bool
+    moments: tuple[Instant, ...]
+
+
+def spans(history: History, steps: Sequence[str]) -> list[Span]:
+    """What is looked at of a history.
+
+    Parameters
+    ----------
+    history : with a step at least
+    steps : by name; the last one if none is given
+
+    Raises
+    ------
+    InputError
+        For an unknown or unfinished step, and one that begins where another history ends.
+    """
+    names = [step.name for step in history.steps]
+    for name in steps:
+        if name not in names:
+            raise InputError(one_of(name, names, "step"), where=("steps",))
+    chosen = [names.index(name) for name in steps] or [len(names) - 1]
+    found = []
+    for index in chosen:
+        step, repeat = history.steps[index], history.model.steps[index].repeat
+        if not step.finished:
+            raise InputError(f"'{step.name}' was not finished; expected one that was", where=("steps",))
+        begin = index + 1 - 1.0 / repeat - _SAME_LOAD
+        if repeat > 1:
+            own = tuple(instant for instant in step.instants if instant.load_factor >= begin)
+            found.append(Span(step=step, before=None, at_rest=False, moments=own))
+            continue
+        if index == 0 and history.loaded:
+            words = f"'{step.name}' begins where another history ends; expected one behind it, or one that repeats"
+            raise InputError(words, where=("steps",))
+        before = history.steps[index - 1] if index else None
+        joins = bool(found) and found[-1].step is before
+        found.append(Span(step=step, before=None if joins else before, at_rest=not index, moments=tuple(step.instants)))
+    return found
+
+
+def stress_history(history: History, probe: StressProbe, points: Array, *, steps: Sequence[str]) -> StressHistory:
+    """Stresses at places at every moment of steps.
+
+    Displacements are those that were kept, at ends of steps, at times asked for and wherever ``at = "events"``; the
+    others are found from the forces of the contacts. They are gone when their stresses are known.
+
+    Parameters
+    ----------
+    history : solved
+    probe : the places
+    points : (p, d) undeformed coordinates of the places, length
+    steps : by name; the last one if none is given
+
+    Raises
+    ------
+    InputError
+        For an unknown step, and where displacements on the way were not kept and do not follow from what was.
+    """
+    looked_at = spans(history, steps)
+    recovery = cache(partial(Recovery.of, history.model))
+    rows = [row for span in looked_at for row in _along(span, probe, recovery)]
+    stress = np.stack([row[1] for row in rows], axis=1)
+    flowed = np.stack([row[2] for row in rows], axis=1)
+    single = len(probe.nodes) == len(points) and probe.weights.nnz == len(points)
+    node = probe.nodes[probe.weights.indices, 1] if single else np.full(len(points), -1)
+    return StressHistory(
+        points=frozen(points),
+        bodies=tuple(probe.model.bodies[body].name for body in probe.body),
+        node=frozen(node, np.int64),
+        load_factor=frozen(np.array([row[0] for row in rows])),
+        stress=frozen(stress),
+        strain=frozen(probe.elastic_strain(stress) + flowed),
+        exact=all(span.step.path == "exact" for span in looked_at),
+    )
+
+
+def _along(span: Span, probe: StressProbe, recovery: Callable[[], Recovery]) -> Iterator[tuple[float, Array, Array]]:
+    """Load factor, stresses and plastic strains at the moments of a step, each (p, 6)."""
+    if span.at_rest:
+        yield 0.0, np.zeros((len(probe.body), 6)), np.zeros((len(probe.body), 6))
+    if span.before is not None:
+        yield (span.before.load_factor, *_in_state(probe, span.before, span.before.displacement))
+    missing = [moment for moment in span.moments[:-1] if moment.displacement is None]
+    found = recovery().displacements(span.step, missing) if missing else iter(())
+    for moment in span.moments[:-1]:
+        displacement = next(found) if moment.displacement is None else moment.displacement
+        yield (moment.load_factor, *_in_state(probe, moment, displacement))
+    for _ in found:  # what is left compares what was found with the end
+        pass
+    yield (span.step.load_factor, *_in_state(probe, span.step, span.step.displacement))
+
+
+def _in_state(probe: StressProbe, state: StepResult | Instant, displacement: Array) -> tuple[Array, Array]:
+    """Stresses and plastic strains of the places in one state, each (p, 6)."""
+    if state.plastic is None:
+        deformed = DeformedBodies.of(probe.space, probe.model, displacement, state.factors)
+        stress = probe.stress(deformed)
+        return stress, np.zeros_like(stress)
+    strains = by_family(probe.space, probe.model, state.plastic.state.strain)
+    deformed = DeformedBodies.of(probe.space, probe.model, displacement, state.factors, strains)
+    width = 4 if probe.model.dimension == 2 else 6
+
+    def flowed(group: Group) -> Array:
+        found = at_best_points(group, strains)
+        return np.zeros((len(group.index), len(group.block.to_best), width)) if found is None else found
+
+    tensor = np.zeros((len(probe.body), 6))
+    tensor[:, :width] = probe.mean(flowed, width)
+    tensor[:, 3:] *= 0.5
+    return probe.stress(deformed), tensor

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Stresses at some places of the bodies: only cells around them are looked at, in any number of states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, IntArray
+from signorini.fem.elasticity import elasticities, elasticity
+from signorini.fem.kinematics import Group, groups
+from signorini.fem.path import located
+from signorini.fem.space import Space
+from signorini.fem.stress import DeformedBodies, nodal_averages
+from signorini.model.model import Model
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class StressProbe:
+    """Places whose stresses are weighted sums of those at nodes of bodies.
+
+    Attributes
+    ----------
+    space, model : of the bodies
+    body : (p,) index of the body of every place
+    nodes : (e, 2) bodies and nodes that they depend on
+    weights : (p, e) of these
+    within : the cells around them
+    """
+
+    space: Space
+    model: Model
+    body: IntArray
+    nodes: IntArray
+    weights: sp.csr_array
+    within: tuple[Group, ...]
+
+    @classmethod
+    def of(cls, space: Space, model: Model, nodes: IntArray, weights: sp.csr_array, body: IntArray) -> StressProbe:
+        """Places by the nodes that they depend on; the arguments are the attributes ``space`` to ``body``.
+
+        Parameters
+        ----------
+        space, model, nodes, weights, body : see `StressProbe`
+        """
+        wanted = np.zeros((len(model.bodies), len(space.mesh.points)), bool)
+        wanted[nodes[:, 0], nodes[:, 1]] = True
+        within = []
+        for group in groups(space, model):
+            own = wanted[group.body[:, None], group.cells].any(axis=1)
+            if own.any():
+                within.append(replace(group, index=group.index[own], body=group.body[own]))
+        return cls(space=space, model=model, body=body, nodes=nodes, weights=weights, within=tuple(within))
+
+    @classmethod
+    def at_nodes(cls, space: Space, model: Model, nodes: IntArray) -> StressProbe:
+        """At nodes of bodies (p, 2), each a body and a node of the mesh."""
+        return cls.of(space, model, nodes, sp.csr_array(sp.eye_array(len(nodes))), nodes[:, 0])
+
+    @classmethod
+    def at_points(cls, space: Space, model: Model, points: Array, body: IntArray) -> StressProbe:
+        """At points (p, k, d) of which every place is the mean of k, between the nodes of their cells.
+
+        Parameters
+        ----------
+        space, model : of the bodies
+        points : undeformed coordinates, length
+        body : (p,) index of the body of every place
+
+        Raises
+        ------
+        InputError
+            If a point lies outside its body.
+        """
+        count, k = points.shape[:2]
+        rows, columns, values = [], [], []
+        for own in np.unique(body):
+            places = np.flatnonzero(body == own)
+            for block, index, cells, shape in located(space, model, points[places].reshape(-1, points.shape[2]), own):
+                nodes = block.cells[cells]
+                rows.append(np.repeat(places[index // k], nodes.shape[1]))
+                columns.append(np.column_stack([np.full(nodes.size, own), nodes.ravel()]))
+                values.append(shape.ravel() / k)
+        every, at = np.unique(np.concatenate(columns), axis=0, return_inverse=True)
+        found = sp.coo_array((np.concatenate(values), (np.concatenate(rows), at.ravel())), shape=(count, len(every)))
+        return cls.of(space, model, every, found.tocsr(), body)
+
+    @classmethod
+    def together(cls, probes: Sequence[StressProbe]) -> StressProbe:
+        """The places of several probes of one model, one after the other."""
+        first = probes[0]
+        nodes = np.concatenate([probe.nodes for probe in probes])
+        weights = sp.block_diag([probe.weights for probe in probes], format="csr")
+        return cls.of(first.space, first.model, nodes, sp.csr_array(weights), np.concatenate([p.body for p in probes]))
+
+    def stress(self, deformed: DeformedBodies) -> Array:
+        """(p, 6) Stresses of bodies in one state, as those of `signorini.fem.stress.body_stresses`."""
+        components = elasticities(self.model).shape[1]
+        found = deformed.in_space(self._at_nodes(deformed.stress, components), self.nodes[:, 1])
+        return np.asarray(self.weights @ found)
+
+    def mean(self, at_best: Callable[[Group], Array], components: int) -> Array:
+        """(p, components) Values that cells have at their best points, see `signorini.fem.stress.nodal_averages`."""
+        return np.asarray(self.weights @ self._at_nodes(at_best, components))
+
+    def elastic_strain(self, stress: Array) -> Array:
+        """Strains (p, ..., 6), as tensors, that stresses (p, ..., 6) are due to."""
+        kind = "3d" if self.model.dimension == 3 else "plane strain"
+        C = np.array([np.linalg.inv(elasticity(body.material, kind)) for body in self.model.bodies])
+        strain, n = np.zeros_like(stress), C.shape[1]
+        strain[..., :n] = np.einsum("pcd,p...d->p...c", C[self.body], stress[..., :n])
+        strain[..., 3:] *= 0.5
+        return strain
+
+    def _at_nodes(self, at_best: Callable[[Group], Array], components: int) -> Array:
+        """(e, components) Averages at the nodes."""
+        found = np.zeros((len(self.nodes), components))
+        for body, (nodes, values) in enumerate(
+            nodal_averages(self.space, self.model, at_best, components, self.within)
+        ):
+            own = self.nodes[:, 0] == body
+            found[own] = values[np.searchsorted(nodes, self.nodes[own, 1])]
+        return found
