@@ -14,7 +14,7 @@ from signorini._version import __version__
 
 if TYPE_CHECKING:
     from signorini import fatigue, lcp
-    from signorini.api import Solution, load, prepare, solve
+    from signorini.api import Solution, load, solve
     from signorini.deck import read
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from signorini.model.bolt import Bolt
     from signorini.model.conditions import Foundation, Load, Support
     from signorini.model.contact import Contact
+    from signorini.model.fatigue import Fatigue
     from signorini.model.links import CyclicSymmetry, Equation, RigidBody
     from signorini.model.material import Elastic, Orthotropic
     from signorini.model.mesh import Mesh, join
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from signorini.model.triangulated import Surface
     from signorini.model.varying import Along, ArcLength, Formula, NodeValues, Scattered
     from signorini.model.wear import Wear
+    from signorini.prepared import prepare
     from signorini.settings import SolverSettings
     from signorini.vibration.damping import joint_damping
     from signorini.vibration.modes import natural_modes
@@ -57,6 +59,7 @@ __all__ = [
     "Cylinder",
     "Elastic",
     "Equation",
+    "Fatigue",
     "Formula",
     "Foundation",
     "InputError",
@@ -109,7 +112,7 @@ __all__ = [
 ]
 
 _HOMES = {
-    "signorini.api": ("Solution", "load", "prepare", "solve"),
+    "signorini.api": ("Solution", "load", "solve"),
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
     "signorini.meshing.cut": ("cut",),
@@ -123,6 +126,7 @@ _HOMES = {
     "signorini.model.bolt": ("Bolt",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),
     "signorini.model.contact": ("Contact",),
+    "signorini.model.fatigue": ("Fatigue",),
     "signorini.model.links": ("CyclicSymmetry", "Equation", "RigidBody"),
     "signorini.model.material": ("Elastic", "Orthotropic"),
     "signorini.model.mesh": ("Mesh", "join"),
@@ -135,6 +139,7 @@ _HOMES = {
     "signorini.model.triangulated": ("Surface",),
     "signorini.model.varying": ("Along", "ArcLength", "Formula", "NodeValues", "Scattered"),
     "signorini.model.wear": ("Wear",),
+    "signorini.prepared": ("prepare",),
     "signorini.settings": ("SolverSettings",),
     "signorini.vibration.damping": ("joint_damping",),
     "signorini.vibration.modes": ("natural_modes",),

@@ -3,23 +3,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.clock import Clock
-from signorini.engine.prepare import Prepared
-from signorini.engine.prepare import prepare as prepare_model
-from signorini.engine.solve import raise_failure, solve_prepared
+from signorini.engine.fatigue import assess_fatigue, probe_of
+from signorini.engine.solve import raise_failure
 from signorini.engine.solve import solve as solve_history
+from signorini.engine.stress_history import stress_history
 from signorini.errors import InputError, one_of
+from signorini.fatigue.criteria import FatigueCriterion
 from signorini.fem.path import PathResult, along
 from signorini.fem.stress import BodyStress
+from signorini.model.fatigue import Fatigue
 from signorini.model.model import Model
 from signorini.output.archive import write_archive
 from signorini.output.atomic_write import atomic_write
@@ -39,7 +41,9 @@ from signorini.plot.style import literal
 from signorini.plot.view import write_view
 from signorini.settings import SolverSettings
 from signorini.solution.checkpoint import Checkpoint
+from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.history import History
+from signorini.solution.stress_history import StressHistory
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -155,6 +159,75 @@ class Solution(History):
             fields.space, self.model, last.displacement, given, body=body, factors=last.factors, plastic=plastic
         )
 
+    def stress_history(
+        self,
+        where: str | Sequence[str] = (),
+        *,
+        points: ArrayLike | None = None,
+        body: str = "",
+        steps: Sequence[str] = (),
+    ) -> StressHistory:
+        """Stresses and strains over steps at every event, between which they are linear on an exact path.
+
+        Displacements that were not kept are found from the forces of the contacts, some at once.
+
+        Parameters
+        ----------
+        where : contacts, boundaries, node sets and bodies whose nodes are looked at; all contacts if none is named
+        points : (n, d) undeformed coordinates inside a body instead, length
+        body : by name, in which points are
+        steps : by name; the last one if none is named. Of a step that repeats, the last cycle
+
+        Raises
+        ------
+        InputError
+            For an unknown name, and where displacements do not follow from loads and contacts alone and were not kept.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> bar = sg.Model(sg.rectangle(width=2.0, nx=2), bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.0))],
+        ...                supports=[sg.Support("left", u=(0, 0))], loads=[sg.Load("right", traction=(5.0, 0))])
+        >>> sg.solve(bar).stress_history(points=[(1.5, 0.5)], body="block").stress[0, :, 0].round(12)
+        array([0., 5.])
+        """
+        number = 0 if points is None else self._number_of(body)
+        given = None if points is None else np.atleast_2d(np.asarray(points, float))
+        names = (where,) if isinstance(where, str) else where
+        probe, places = probe_of(self._fields.space, self.model, names, given, number)
+        return stress_history(self, probe, places, steps=(steps,) if isinstance(steps, str) else steps)
+
+    def fatigue(
+        self,
+        criterion: FatigueCriterion,
+        *,
+        where: str | Sequence[str] = (),
+        steps: str | Sequence[str] = (),
+        distance: float = 0.0,
+        average: Literal["point", "line"] = "point",
+    ) -> FatigueResult:
+        """What a fatigue criterion says along steps: parameters, critical planes and lives.
+
+        Parameters
+        ----------
+        criterion, where, steps, distance, average : as of :class:`signorini.model.fatigue.Fatigue`
+
+        Raises
+        ------
+        InputError
+            As `stress_history`; and where a critical distance leaves a body.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> bar = sg.Model(sg.rectangle(width=2.0, nx=2), bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.0))],
+        ...                supports=[sg.Support("left", u=(0, 0))], loads=[sg.Load("right", traction=(5.0, 0))])
+        >>> sg.solve(bar).fatigue(sg.fatigue.SWT(), where="top").parameter.round(12)
+        array([0.125, 0.125, 0.125])
+        """
+        request = Fatigue(criterion, where=where, steps=steps, distance=distance, average=average)
+        return assess_fatigue(self, request, self._fields.space)
+
     @cached_property
     def _fields(self) -> Fields:
         return Fields(self.model)
@@ -257,7 +330,7 @@ def solve(
         clock=clock,
         after_step=after_step,
     )
-    return _dressed(history, raise_on_failure)
+    return dressed(history, raise_on_failure)
 
 
 def _checkpoint(start: Start | None) -> Checkpoint | None:
@@ -266,79 +339,6 @@ def _checkpoint(start: Start | None) -> Checkpoint | None:
             raise InputError("has finished no step; expected one to go on from", where=("start",))
         return start.end
     return read_checkpoint(Path(start)) if isinstance(start, str | Path) else start
-
-
-class PreparedModel:
-    """A model factorised once, for many loads, friction coefficients and interferences; see :func:`prepare`."""
-
-    def __init__(self, prepared: Prepared) -> None:
-        self._prepared = prepared
-
-    def solve(
-        self,
-        *,
-        friction: float | Mapping[str, float] | None = None,
-        interference: float | Mapping[str, float] | None = None,
-        loads: Mapping[str, float] | None = None,
-        raise_on_failure: bool = True,
-    ) -> Solution:
-        """Solve the load history, with another law or load where given.
-
-        Nothing is factorised again that was for any of the last few histories: other supports, or loads that reach
-        more than twice as far, are factorised once.
-
-        Parameters
-        ----------
-        friction, interference : one number for every contact, or contact to number
-        loads : load or moving support to what its value is multiplied by
-        raise_on_failure : see :func:`solve`
-
-        Raises
-        ------
-        InputError, SolveFailed
-            As :func:`solve`.
-        """
-        changed = self._prepared.changed(
-            friction=self._by_contact(friction), interference=self._by_contact(interference), loads=loads
-        )
-        return _dressed(solve_prepared(changed, raise_on_failure=False), raise_on_failure)
-
-    def _by_contact(self, value: float | Mapping[str, float] | None) -> Mapping[str, float] | None:
-        if value is None or isinstance(value, Mapping):
-            return value
-        return {contact.label: value for contact in self._prepared.model.contacts}
-
-
-def prepare(
-    model: Model, *, backend: str = "auto", settings: SolverSettings | None = None, clock: Clock | None = None
-) -> PreparedModel:
-    """Assemble and condense a model once, to solve it many times.
-
-    Parameters
-    ----------
-    model : the problem
-    backend : of the sparse factorisation, "auto" or a name
-    settings : limits of the methods that solve contact
-    clock : counts the seconds and tells progress
-
-    Raises
-    ------
-    InputError
-        If the model is wrong; a body that nothing holds is named with its free motion.
-
-    Examples
-    --------
-    >>> from signorini.gallery.cylinder import zhu_cylinder
-    >>> prepared = prepare(zhu_cylinder())
-    >>> for mu in (0.0, 0.4):
-    ...     print(mu, prepared.solve(friction=mu).contact("foundation").pressure[0].round(2))
-    0.0 36.15
-    0.4 38.02
-    >>> light = prepared.solve(friction=0.0, loads={"cut": 0.25})
-    >>> print(light.contact("foundation").normal_force[1].round(9))
-    19.5
-    """
-    return PreparedModel(prepare_model(model, backend=backend, settings=settings, clock=clock).keeping())
 
 
 def load(path: str | Path) -> Solution:
@@ -352,10 +352,11 @@ def load(path: str | Path) -> Solution:
     InputError
         If there is none, or it was written by a version with other data.
     """
-    return _dressed(read_results(Path(path)), raise_on_failure=False)
+    return dressed(read_results(Path(path)), raise_on_failure=False)
 
 
-def _dressed(history: History, raise_on_failure: bool) -> Solution:
+def dressed(history: History, raise_on_failure: bool) -> Solution:
+    """A history that prints, writes and draws itself; ``raise_on_failure``: unless it was not solved."""
     solution = Solution(**{name: getattr(history, name) for name in History.__dataclass_fields__})
     if raise_on_failure:
         raise_failure(solution)

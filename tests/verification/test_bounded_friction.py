@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from signorini.api import prepare
 from signorini.cli.main import main
 from signorini.deck import read
 from signorini.deck.write import write_deck
@@ -23,6 +22,7 @@ from signorini.model.material import Elastic
 from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step
+from signorini.prepared import prepare
 from signorini.reference.tresca import LimitedShear
 
 GRID = np.linspace(0.0, 4.0, 17)

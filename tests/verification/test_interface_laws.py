@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from signorini.api import prepare
 from signorini.deck import read
 from signorini.engine.solve import solve
 from signorini.errors import InputError
@@ -23,6 +22,7 @@ from signorini.model.obstacle import Plane
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 from signorini.model.varying import Along
+from signorini.prepared import prepare
 
 ELASTIC = Elastic(E=1000.0, nu=0.3)
 

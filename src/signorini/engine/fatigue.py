@@ -26,6 +26,25 @@ from signorini.solution.stress_history import StressHistory
 _LINE_POINTS = 16  # of a mean over a line: stresses are piecewise smooth over the cells that it crosses
 
 
+def asked_fatigue(history: History) -> tuple[FatigueResult, ...]:
+    """What the criteria say that a model asks for.
+
+    Raises
+    ------
+    InputError
+        As `assess_fatigue`, with the number of the criterion.
+    """
+    model = history.model
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    found = []
+    for i, request in enumerate(model.fatigue):
+        try:
+            found.append(assess_fatigue(history, request, space))
+        except InputError as error:
+            raise error.inside("fatigue", i) from error
+    return tuple(found)
+
+
 def assess_fatigue(history: History, request: Fatigue, space: Space | None = None) -> FatigueResult:
     """What a criterion says along steps of a history.
 

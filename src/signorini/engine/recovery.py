@@ -26,6 +26,7 @@ from signorini.linalg.protocol import Factorisation
 from signorini.linalg.registry import factorise
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
+from signorini.solution.history import History
 from signorini.solution.results import Instant, StepResult
 
 _AT_ONCE = 32  # moments that are solved for together: so many displacements of all nodes are in memory
@@ -49,7 +50,7 @@ class Recovery:
 
     @classmethod
     @one_thread()
-    def of(cls, model: Model) -> Recovery:
+    def of(cls, history: History) -> Recovery:
         """Assemble and factorise; free motions are held by springs, which carry nothing under balanced forces.
 
         Raises
@@ -57,8 +58,9 @@ class Recovery:
         InputError
             If displacements of the model do not follow from the forces of its contacts alone.
         """
+        model = history.model
         _refuse(model)
-        examined = examine(model)
+        examined = examine(model, start=history.end)  # loads that its steps do not name may come from one before it
         constraints, T = examined.constraints, examined.constraints.transform
         K = stiffness(examined.space, model)
         for springs in constraints.springs.values():

@@ -12,6 +12,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.clock import Clock
 from signorini.engine.contact_changes import pressed_gap, relaxed, staged, switched
+from signorini.engine.fatigue import asked_fatigue
 from signorini.engine.increments import measured
 from signorini.engine.memory_check import refuse_fields
 from signorini.engine.prepare import Prepared, prepare
@@ -97,6 +98,8 @@ def solve_prepared(
         raise InputError("does not know contacts that slide far; expected it without them", where=("wellposed",))
     begin = _first(prepared) if start is None else _fitting(prepared, start)
     history = _follow(prepared, begin, wellposed, after_step)
+    if prepared.model.fatigue and history.solved:
+        history = replace(history, fatigue_results=asked_fatigue(history))
     if raise_on_failure:
         raise_failure(history)
     return history

@@ -97,7 +97,7 @@ def stress_history(history: History, probe: StressProbe, points: Array, *, steps
         For an unknown step, and where displacements on the way were not kept and do not follow from what was.
     """
     looked_at = spans(history, steps)
-    recovery = cache(partial(Recovery.of, history.model))
+    recovery = cache(partial(Recovery.of, history))
     rows = [row for span in looked_at for row in _along(span, probe, recovery)]
     stress = np.stack([row[1] for row in rows], axis=1)
     flowed = np.stack([row[2] for row in rows], axis=1)

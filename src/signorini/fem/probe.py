@@ -57,7 +57,13 @@ class StressProbe:
 
     @classmethod
     def at_nodes(cls, space: Space, model: Model, nodes: IntArray) -> StressProbe:
-        """At nodes of bodies (p, 2), each a body and a node of the mesh."""
+        """At nodes of bodies.
+
+        Parameters
+        ----------
+        space, model : of the bodies
+        nodes : (p, 2) body and node of the mesh
+        """
         return cls.of(space, model, nodes, sp.csr_array(sp.eye_array(len(nodes))), nodes[:, 0])
 
     @classmethod

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from signorini.checks import choice, number, text
-from signorini.errors import InputError, one_of
+from signorini.errors import InputError, Where, one_of
 from signorini.fatigue.criteria import FatigueCriterion, Ruiz
 
 AVERAGES = ("point", "line")
@@ -52,11 +52,12 @@ class Fatigue:
                 "is given, and Ruiz's parameters are those of the surface; expected 0", where=("distance",)
             )
 
-    def check(self, contacts: Collection[str], places: Collection[str], steps: Collection[str]) -> None:
+    def check(self, where: Where, contacts: Collection[str], places: Collection[str], steps: Collection[str]) -> None:
         """Look for what is named.
 
         Parameters
         ----------
+        where : what errors call it
         contacts : names of the contacts
         places : names of boundaries, node sets and bodies
         steps : names of the steps
@@ -71,13 +72,13 @@ class Fatigue:
         kind = "contact" if only_contacts else "contact, boundary, node set or body"
         for name in self.where:
             if name not in known:
-                raise InputError(one_of(name, known, kind), where=("where",))
+                raise InputError(one_of(name, known, kind), where=(*where, "where"))
         if not contacts and (only_contacts or not self.where):
             words = "a contact" if only_contacts else "a boundary, a node set or a body"
-            raise InputError(f"there is no contact; expected {words}", where=("where",))
+            raise InputError(f"there is no contact; expected {words}", where=(*where, "where"))
         for name in self.steps:
             if name not in steps:
-                raise InputError(one_of(name, steps, "step"), where=("steps",))
+                raise InputError(one_of(name, steps, "step"), where=(*where, "steps"))
 
 
 def _names(value: Any, key: str) -> tuple[str, ...]:

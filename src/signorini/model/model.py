@@ -17,6 +17,7 @@ from signorini.model.body import Body
 from signorini.model.bolt import Bolt
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Place, Support
 from signorini.model.contact import Contact
+from signorini.model.fatigue import Fatigue
 from signorini.model.labels import Labelled, refuse_same_names, refuse_wrong_changes
 from signorini.model.links import CyclicSymmetry, Equation, RigidBody, directions
 from signorini.model.material import Orthotropic
@@ -47,6 +48,7 @@ class Model(Short):
     equations, rigid_bodies, cyclic_symmetries : what couples displacements without an element, see :class:`Equation`,
         :class:`RigidBody`, :class:`CyclicSymmetry`
     bolts : sections that are drawn together, see :class:`Bolt`
+    fatigue : criteria that are asked along the history, see :class:`signorini.model.fatigue.Fatigue`
     steps : the load history; by default one step, all loads from 0 to 1, in one increment
     title, units : said again in the results
 
@@ -80,6 +82,7 @@ class Model(Short):
     rigid_bodies: Sequence[RigidBody] = ()
     cyclic_symmetries: Sequence[CyclicSymmetry] = ()
     bolts: Sequence[Bolt] = ()
+    fatigue: Sequence[Fatigue] = ()
     steps: Sequence[Step] = (Step(name="load"),)
     title: str = ""
     units: str = "as given, consistent"
@@ -97,7 +100,7 @@ class Model(Short):
             self._refuse_thickness(self.thickness, ("thickness",))
         kinds = {"bodies": Body, "supports": Support, "foundations": Foundation, "loads": Load, "contacts": Contact}
         kinds |= {"obstacles": Rigid, "equations": Equation, "rigid_bodies": RigidBody, "bolts": Bolt, "steps": Step}
-        kinds |= {"cyclic_symmetries": CyclicSymmetry}
+        kinds |= {"cyclic_symmetries": CyclicSymmetry, "fatigue": Fatigue}
         for part, kind in kinds.items():
             object.__setattr__(self, part, members(getattr(self, part), kind, part))
         bodies = (body.in_kind(self.kind, self.mesh.families(body.name)) for body in self.bodies)
@@ -126,6 +129,8 @@ class Model(Short):
         named: dict[str, Sequence[Labelled]] = {"support": held, "load": self.loads, "contact": self.contacts}
         refuse_same_names(named | {"obstacle": self.obstacles, "bolt": self.bolts})
         self._check_steps()
+        if self.fatigue:
+            self._check_fatigue()
 
     @property
     def dimension(self) -> int:
@@ -370,6 +375,12 @@ class Model(Short):
             if step.path == "exact":
                 for contact in self.contacts:
                     contact.check_exact(("step", i, "path"), in_space=self.kind == "3d")
+
+    def _check_fatigue(self) -> None:
+        places = [*self.mesh.boundaries, *self.mesh.nodes, *(body.name for body in self.bodies)]
+        contacts, steps = [contact.label for contact in self.contacts], [step.name for step in self.steps]
+        for i, request in enumerate(self.fatigue):
+            request.check(("fatigue", i), contacts, places, steps)
 
     @property
     def scaled_names(self) -> tuple[str, ...]:

@@ -22,10 +22,12 @@ AnyArray = np.ndarray[Any, Any]
 
 _HOMES = (
     "signorini.attempt",
+    "signorini.fatigue.criteria",
     "signorini.model.body",
     "signorini.model.bolt",
     "signorini.model.conditions",
     "signorini.model.contact",
+    "signorini.model.fatigue",
     "signorini.model.links",
     "signorini.model.obstacle",
     "signorini.model.rigid",
@@ -42,6 +44,7 @@ _HOMES = (
     "signorini.solution.certificate",
     "signorini.solution.checkpoint",
     "signorini.solution.contact_wear",
+    "signorini.solution.fatigue_result",
     "signorini.solution.history",
     "signorini.solution.results",
     "signorini.solution.scale",

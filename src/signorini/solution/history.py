@@ -12,6 +12,7 @@ from signorini.model.model import Model
 from signorini.outcome import Outcome
 from signorini.short import Short
 from signorini.solution.checkpoint import Checkpoint
+from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.results import ContactResult, StepResult
 from signorini.solution.wellposedness import WellPosedness
 
@@ -34,6 +35,7 @@ class History(Short):
     end : the state at the end of the last finished step, from which another history may go on; None before the first
     wellposedness : whether other solutions exist, where that was asked
     loaded : whether it goes on from another whose end pressed on contacts
+    fatigue_results : of the criteria that the model asks for, where every step was solved
     escape : (nodes, d) rigid motion along which bodies run away where that was found, largest entry 1; otherwise None
     """
 
@@ -47,6 +49,7 @@ class History(Short):
     end: Checkpoint | None = None
     wellposedness: WellPosedness | None = None
     loaded: bool = False
+    fatigue_results: tuple[FatigueResult, ...] = ()
     escape: Array | None = None
 
     def __post_init__(self) -> None:
