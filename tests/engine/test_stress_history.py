@@ -82,7 +82,7 @@ def test_points_are_those_of_along(fretting):
     assert history.node.tolist() == [-1, -1]
     with pytest.raises(sg.InputError, match="point 1 at"):
         solution.stress_history(points=[(0.0, 3.0)], body="lower")
-    with pytest.raises(sg.InputError, match="unknown step 'push'. Known: cycles, press, pull"):
+    with pytest.raises(sg.InputError, match=r"unknown step 'push'\. Known: cycles, press, pull"):
         solution.stress_history(steps=("push",))
 
 
