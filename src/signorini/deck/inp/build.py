@@ -17,7 +17,7 @@ from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.conditions import Conditions, make_conditions
 from signorini.deck.inp.cyclic import make_cyclic
-from signorini.deck.inp.grid import DeckGrid, make_grid
+from signorini.deck.inp.grid import DeckGrid, element_type, make_grid
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS, of_keyword, refuse_unsupported
 from signorini.deck.inp.known import Known, make_known
 from signorini.deck.inp.links import make_deck_links
@@ -27,6 +27,7 @@ from signorini.deck.inp.pairs import Pair, make_changes, make_contacts
 from signorini.deck.inp.plasticity import above_initial
 from signorini.deck.inp.pretension import cut_along, make_pretensions, pretension_equations
 from signorini.deck.inp.prints import make_prints
+from signorini.deck.inp.refusals import Refusals
 from signorini.deck.inp.steps import DeckStep, split_steps
 from signorini.deck.inp.syntax import flatten, read_cards
 from signorini.deck.tables import FIELDS
@@ -65,7 +66,7 @@ class KeywordDeck(Deck):
 
     def _card_of_cell(self, cell: int) -> Card:
         """The ``*ELEMENT`` keyword, at its line, of the element that a cell is; reads the deck once more."""
-        return make_grid(split_steps(flatten(read_cards(self.path, self.reach)))[0]).card_of_cell(cell)
+        return make_grid(split_steps(flatten(read_cards(self.path, self.reach)), Refusals())[0]).card_of_cell(cell)
 
 
 def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: bool) -> KeywordDeck:
@@ -78,17 +79,22 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     small_strain : solve with small displacements what asks for large ones (NLGEOM)
     deck_increments : follow the deck's increments instead of the package's rule
     """
-    cards = flatten(read_cards(path, reach))
-    outside, steps = split_steps(cards)
-    ignored = _left_out(outside, steps)
+    cards, refusals = flatten(read_cards(path, reach)), Refusals()
+    outside, steps = split_steps(cards, refusals)
+    ignored = _left_out(outside, steps, refusals)
+    refusals.stop()
     _refuse_incomplete(outside, steps, path)
 
-    known = make_known(cards, outside)
-    contacts = make_contacts(outside, known, large=not small_strain and any(step.nlgeom for step in steps))
-    _refuse_large(steps, contacts, small_strain)
-    rigid, equations = make_deck_links(outside, known)
-    conditions = make_conditions(follow_steps(outside, steps, known, rigid), known)
-    pretensions, sectors = make_pretensions(outside, known), make_cyclic(outside, known)
+    known = make_known(cards, outside, refusals)
+    with refusals.gather():
+        contacts = make_contacts(outside, known, large=not small_strain and any(step.nlgeom for step in steps))
+        _refuse_large(steps, contacts, small_strain)
+    with refusals.gather():
+        rigid, equations = make_deck_links(outside, known)
+        conditions = make_conditions(follow_steps(outside, steps, known, rigid), known)
+    with refusals.gather():
+        pretensions, sectors = make_pretensions(outside, known), make_cyclic(outside, known)
+    refusals.stop()
     mesh = cut_along(_mesh(known), pretensions)
     changes = [make_changes(step.cards, known, contacts) for step in steps]
     initial = initial_temperatures(outside, known)
@@ -144,11 +150,14 @@ def _located_error(
     return DeckError(error.message, path=path, where=error.where)
 
 
-def _left_out(outside: Sequence[Card], steps: Sequence[DeckStep]) -> dict[str, int]:
-    """Keywords without effect on the answer, each with its first line; others that are not read stop."""
-    ignored = refuse_unsupported(outside, MODEL_WORDS, "outside a step")
+def _left_out(outside: Sequence[Card], steps: Sequence[DeckStep], refusals: Refusals) -> dict[str, int]:
+    """Keywords without effect on the answer, each with its first line; others that are not read are refused."""
+    for card in of_keyword(outside, "ELEMENT"):
+        with refusals.gather():
+            element_type(card)
+    ignored = refuse_unsupported(outside, MODEL_WORDS, "outside a step", refusals)
     for step in steps:
-        ignored = refuse_unsupported(step.cards, STEP_WORDS, "inside a step") | ignored
+        ignored = refuse_unsupported(step.cards, STEP_WORDS, "inside a step", refusals) | ignored
     return ignored
 
 

@@ -9,6 +9,7 @@ from typing import Literal
 
 from signorini.deck.inp.card import Card, Row, to_number
 from signorini.deck.inp.keywords import collect
+from signorini.deck.inp.refusals import Refusals
 
 _INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
 """Keywords that belong to the ``*SURFACE INTERACTION`` before them and that are read here."""
@@ -40,9 +41,9 @@ class Interaction:
         return self.card.value("NAME")
 
 
-def make_interactions(cards: Sequence[Card]) -> dict[str, Interaction]:
+def make_interactions(cards: Sequence[Card], refusals: Refusals) -> dict[str, Interaction]:
     """Read all ``*SURFACE INTERACTION`` keywords, of Signorini's and Coulomb's law, by name in capitals."""
-    return collect(cards, "SURFACE INTERACTION", _INTERACTION_WORDS, _begun, _with)
+    return collect(cards, "SURFACE INTERACTION", _INTERACTION_WORDS, _begun, _with, refusals)
 
 
 def _begun(card: Card) -> Interaction:

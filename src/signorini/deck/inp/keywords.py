@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Protocol, TypeVar
 
 from signorini.deck.inp.card import Card
+from signorini.deck.inp.refusals import ADVICE, Refusals
 from signorini.errors import one_of
 
 # fmt: off
@@ -95,13 +96,15 @@ def look_up(card: Card, key: str, found: Mapping[str, Named], what: str) -> Name
     return found[name.upper()]
 
 
-def refuse_unsupported(cards: Sequence[Card], known: Sequence[str], where: str) -> dict[str, int]:
+def refuse_unsupported(cards: Sequence[Card], known: Sequence[str], where: str, refusals: Refusals) -> dict[str, int]:
     """Keywords among the cards that are left out, with the line of the first of each; what changes the answer stops.
 
     Parameters
     ----------
-    known : keywords that are read here
+    cards : that stand there
+    known : keywords that are read there
     where : words for the place, as "in a step"
+    refusals : gathers those of keywords that would change the answer
     """
     ignored: dict[str, int] = {}
     for card in cards:
@@ -111,10 +114,17 @@ def refuse_unsupported(cards: Sequence[Card], known: Sequence[str], where: str) 
         if keyword in HARMLESS:
             ignored.setdefault(keyword, card.line)
         elif keyword not in known:
-            elsewhere = keyword in MODEL_WORDS or keyword in STEP_WORDS
-            what = f"is not supported {where}" if elsewhere else "is not supported, and it may change the answer"
-            raise card.error(what)
+            with refusals.gather():
+                raise card.error(unsupported(keyword, where))
     return ignored
+
+
+def unsupported(keyword: str, where: str) -> str:
+    """Why a keyword stops a deck, and what to write instead; ``where`` is where it is not read, in words."""
+    if keyword in MODEL_WORDS or keyword in STEP_WORDS:
+        return f"is not supported {where}"
+    advice = f"; {ADVICE[keyword]}" if keyword in ADVICE else ""
+    return f"is not supported, and it may change the answer{advice}"
 
 
 def collect(
@@ -123,6 +133,7 @@ def collect(
     words: Sequence[str],
     begun: Callable[[Card], Named],
     extended: Callable[[Named, Card], Named],
+    refusals: Refusals,
 ) -> dict[str, Named]:
     """All that a keyword begins, by name in capitals.
 
@@ -133,17 +144,22 @@ def collect(
     words : keywords that belong to the last one before them
     begun : what the keyword alone says
     extended : what it says with one of the words
+    refusals : gathers those of single cards
     """
     found: dict[str, Named] = {}
-    current = ""
+    current: str | None = None
+    opened = False
     for card in cards:
-        if card.keyword == opening:
-            first, current = begun(card), card.value("NAME").upper()
-            if current in found:
-                raise card.error(f"there is another {opening.lower()} '{card.value('NAME')}'")
-            found[current] = first
-        elif card.keyword in words:
-            if not current:
-                raise card.error(f"stands before any *{opening}")
-            found[current] = extended(found[current], card)
+        with refusals.gather():
+            if card.keyword == opening:
+                opened, current = True, None
+                first, name = begun(card), card.value("NAME").upper()
+                if name in found:
+                    raise card.error(f"there is another {opening.lower()} '{card.value('NAME')}'")
+                found[name], current = first, name
+            elif card.keyword in words:
+                if not opened:
+                    raise card.error(f"stands before any *{opening}")
+                if current is not None:
+                    found[current] = extended(found[current], card)
     return found

@@ -14,6 +14,7 @@ from signorini.deck.inp.card import Card
 from signorini.deck.inp.grid import DeckGrid, make_grid
 from signorini.deck.inp.interactions import Interaction, make_interactions
 from signorini.deck.inp.materials import Section, make_materials, make_sections
+from signorini.deck.inp.refusals import Refusals
 from signorini.deck.inp.sets import Sets, make_sets, unique_label
 from signorini.deck.inp.surfaces import ElementFaces, Surfaces, make_surfaces
 from signorini.deck.inp.transforms import NodeAxes, make_node_axes
@@ -80,6 +81,7 @@ class Known:
     amplitudes : by name in capitals
     places : names of the model's boundaries and node sets; it grows as they are needed
     unused_materials : names of materials that no section has
+    refusals : gathered while the rest of the deck is read
     """
 
     grid: DeckGrid
@@ -93,6 +95,7 @@ class Known:
     amplitudes: Mapping[str, Amplitude]
     places: Places
     unused_materials: tuple[str, ...]
+    refusals: Refusals
 
     @property
     def dimension(self) -> int:
@@ -100,25 +103,35 @@ class Known:
         return self.grid.dimension
 
 
-def make_known(cards: Sequence[Card], outside: Sequence[Card]) -> Known:
+def make_known(cards: Sequence[Card], outside: Sequence[Card], refusals: Refusals) -> Known:
     """Read all that cards outside the steps name or number; sets and amplitudes stand among all cards."""
-    grid = make_grid(outside)
+    materials = make_materials(outside, refusals)
+    interactions = make_interactions(outside, refusals)
+    with refusals.gather():
+        amplitudes = make_amplitudes(cards)
+    with refusals.gather():
+        grid = make_grid(outside)
+    refusals.stop()
     nodes, elements = make_sets(cards, grid)
-    materials = make_materials(outside)
-    sections = make_sections(outside, grid, elements, materials)
-    used = {section.substance.card for section in sections}
+    with refusals.gather():
+        sections = make_sections(outside, grid, elements, materials)
+    with refusals.gather():
+        axes = make_node_axes(outside, grid, nodes)
+    refusals.stop()
     faces = ElementFaces(grid)
     surfaces = make_surfaces(outside, faces, nodes, elements)
+    used = {section.substance.card for section in sections}
     return Known(
         grid=grid,
         nodes=nodes,
         elements=elements,
-        axes=make_node_axes(outside, grid, nodes),
+        axes=axes,
         sections=sections,
         faces=faces,
         surfaces=surfaces,
-        interactions=make_interactions(outside),
-        amplitudes=make_amplitudes(cards),
+        interactions=interactions,
+        amplitudes=amplitudes,
         places=Places(faces, surfaces, nodes),
         unused_materials=tuple(each.name for each in materials.values() if each.card not in used),
+        refusals=refusals,
     )

@@ -165,13 +165,19 @@ def follow_steps(
     steps : in order
     known : nodes, elements, sections, surfaces, amplitudes
     rigid : what has reference nodes
+
+    Raises
+    ------
+    DeckError
+        Of all keywords that are refused, together.
     """
     courses = Courses(rigid=rigid, initial=initial_temperatures(outside, known))
     for card in outside:
-        if card.keyword == "BOUNDARY":
-            _boundary(card, known, courses)
-        elif card.keyword in _READERS:
-            raise card.error("stands outside the steps; expected loads inside a *STEP")
+        with known.refusals.gather():
+            if card.keyword == "BOUNDARY":
+                _boundary(card, known, courses)
+            elif card.keyword in _READERS:
+                raise card.error("stands outside the steps; expected loads inside a *STEP")
     for step in steps:
         for course in courses.all:
             course.begin_step()
@@ -180,7 +186,8 @@ def follow_steps(
             cleared = [getattr(courses, name) for name in names]
             _renew([card for card in cards if card.keyword in keywords], cleared, courses.notes)
         for card in cards:
-            _READERS[card.keyword](card, known, courses)
+            with known.refusals.gather():
+                _READERS[card.keyword](card, known, courses)
         courses.notes.extend(_kept_beside(courses, step))
         if step.held and courses.displacement.sets_constants:
             courses.notes.append(
@@ -189,6 +196,7 @@ def follow_steps(
             )
         for course in courses.all:
             course.end_step(step)
+    known.refusals.stop()
     return courses
 
 

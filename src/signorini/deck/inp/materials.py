@@ -13,6 +13,7 @@ from signorini.deck.inp.card import Card, Row
 from signorini.deck.inp.grid import DeckGrid, nodes_of
 from signorini.deck.inp.keywords import collect, look_up, of_keyword
 from signorini.deck.inp.plasticity import Flow, make_flow, with_cyclic_hardening
+from signorini.deck.inp.refusals import Refusals
 from signorini.deck.inp.sets import Sets, unique_label
 from signorini.errors import InputError, one_of
 from signorini.model.material import Elastic, Material, Orthotropic
@@ -76,9 +77,14 @@ class Section:
     incompatible: bool
 
 
-def make_materials(cards: Sequence[Card]) -> dict[str, Substance]:
+def make_materials(cards: Sequence[Card], refusals: Refusals) -> dict[str, Substance]:
     """Read all ``*MATERIAL`` keywords, elasticity and von Mises' law with constant moduli, by name in capitals."""
-    return collect(cards, "MATERIAL", _MATERIAL_WORDS, lambda card: Substance(card=card), _with)
+    return collect(cards, "MATERIAL", _MATERIAL_WORDS, _begun, _with, refusals)
+
+
+def _begun(card: Card) -> Substance:
+    card.refuse_unknown(("NAME",), ("RTOL", "SRATE FACTOR"))
+    return Substance(card=card)
 
 
 def _with(substance: Substance, card: Card) -> Substance:

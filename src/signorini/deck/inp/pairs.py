@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -51,33 +51,43 @@ def make_contacts(cards: Sequence[Card], known: Known, *, large: bool) -> list[P
     clearances = _clearances(cards, known)
     found: list[Pair] = []
     for card in of_keyword(cards, "CONTACT PAIR"):
-        card.refuse_unknown(("INTERACTION", "TYPE", "ADJUST"), IGNORED)
-        card.choice("TYPE", _TYPES, "")
-        law = look_up(card, "INTERACTION", known.interactions, "surface interaction")
-        for row, slave, master in _sides(card, known):
-            given = _adjusted(card, slave, known)
-            if (slave.name, master.name) in clearances:
-                given = {"gap": clearances[slave.name, master.name][0]}
-            if not law.tied:
-                given |= {
-                    "normal_compliance": law.normal_compliance,
-                    "tangential_compliance": law.tangential_compliance,
-                    "shear_limit": law.shear_limit,
-                }
-            if (
-                large
-                and not law.tied
-                and not given.keys() & {"gap", "adjust"}
-                and "SMALL SLIDING" not in card.parameters
-            ):
-                given["sliding"] = "finite"
-            found.append(_pair(card.at(row), slave, master, found, law, **given))
+        with known.refusals.gather():
+            found += _pairs_of(card, found, known, clearances, large)
+    known.refusals.stop()
     sides = {(pair.contact.nonmortar, pair.contact.mortar) for pair in found}
     for (slave_name, master_name), (_, card) in clearances.items():
         if (slave_name, master_name) not in sides:
             raise _no_pair(card, (slave_name, master_name))
     for card, slave, master, reach in _ties(cards, known):
         found.append(_pair(card, slave, master, found, None, **reach))
+    return found
+
+
+def _pairs_of(
+    card: Card,
+    before: Sequence[Pair],
+    known: Known,
+    clearances: Mapping[tuple[str, str], tuple[float | NodeValues, Card]],
+    large: bool,
+) -> list[Pair]:
+    """The pairs of a ``*CONTACT PAIR``, with names that the pairs before it leave."""
+    card.refuse_unknown(("INTERACTION", "TYPE", "ADJUST"), IGNORED)
+    card.choice("TYPE", _TYPES, "")
+    law = look_up(card, "INTERACTION", known.interactions, "surface interaction")
+    found: list[Pair] = []
+    for row, slave, master in _sides(card, known):
+        given = _adjusted(card, slave, known)
+        if (slave.name, master.name) in clearances:
+            given = {"gap": clearances[slave.name, master.name][0]}
+        if not law.tied:
+            given |= {
+                "normal_compliance": law.normal_compliance,
+                "tangential_compliance": law.tangential_compliance,
+                "shear_limit": law.shear_limit,
+            }
+            if large and not given.keys() & {"gap", "adjust"} and "SMALL SLIDING" not in card.parameters:
+                given["sliding"] = "finite"
+        found.append(_pair(card.at(row), slave, master, [*before, *found], law, **given))
     return found
 
 

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from signorini.deck.inp.card import Card, to_number
-from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS
+from signorini.deck.inp.keywords import HARMLESS, STEP_WORDS, unsupported
+from signorini.deck.inp.refusals import Refusals
 
 _MAX_INCREMENTS = 100_000  # of a step: more are no path but a mistake in the units of time
 IGNORED = ("INC", "INCF", "NAME", "UNSYMM", "SOLVER", "CONVERT SDI", "EXTRAPOLATION", "PERTURBATION MASS")
@@ -44,8 +45,8 @@ class DeckStep:
         return self.end - self.start
 
 
-def split_steps(cards: list[Card]) -> tuple[list[Card], list[DeckStep]]:
-    """Keywords before and between the steps, and the steps."""
+def split_steps(cards: list[Card], refusals: Refusals) -> tuple[list[Card], list[DeckStep]]:
+    """Keywords before and between the steps, and the steps but those that are refused."""
     outside: list[Card] = []
     inside: list[tuple[Card, list[Card]]] = []
     members = outside
@@ -65,7 +66,8 @@ def split_steps(cards: list[Card]) -> tuple[list[Card], list[DeckStep]]:
         raise inside[-1][0].error("is not ended; expected *END STEP")
     steps: list[DeckStep] = []
     for card, members in inside:
-        steps.append(_step(card, members, steps))
+        with refusals.gather():
+            steps.append(_step(card, members, steps))
     return outside, steps
 
 
@@ -75,7 +77,7 @@ def _step(card: Card, members: list[Card], before: Sequence[DeckStep]) -> DeckSt
     if len(statics) != 1:
         other = next((other for other in members if other.keyword not in (*STEP_WORDS, *HARMLESS)), None)
         if not statics and other is not None:
-            raise other.error("is not supported; expected *STATIC")
+            raise other.error(unsupported(other.keyword, "instead of *STATIC"))
         found = "no *STATIC" if not statics else "two *STATIC"
         raise card.error(f"has {found}; expected one: only static steps can be solved")
     static = statics[0]
