@@ -104,7 +104,18 @@ class Known:
 
 
 def make_known(cards: Sequence[Card], outside: Sequence[Card], refusals: Refusals) -> Known:
-    """Read all that cards outside the steps name or number; sets and amplitudes stand among all cards."""
+    """Read all that cards outside the steps name or number; sets and amplitudes stand among all cards.
+
+    Parameters
+    ----------
+    cards, outside : all of the deck, and those outside its steps
+    refusals : gathered here, and told before something would follow from them
+
+    Raises
+    ------
+    DeckError
+        Of all that is refused, together.
+    """
     materials = make_materials(outside, refusals)
     interactions = make_interactions(outside, refusals)
     with refusals.gather():
