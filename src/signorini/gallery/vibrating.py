@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
@@ -53,3 +54,38 @@ def bar_in_a_bed(cells: int) -> tuple[Model, BarInBed]:
         bed=1.0,
     )
     return model, exact
+
+
+def plane_bar(length: float, height: float, cells: tuple[int, int], *, guided: bool, clamped: bool) -> Model:
+    """A bar or beam in plane stress with quadratic cells and sqrt(E / rho) = 10, without loads.
+
+    Parameters
+    ----------
+    length, height : of the bar
+    cells : along it, and across
+    guided : its lower side moves along it alone, so that nothing bends
+    clamped : its left end is held along it
+    """
+    mesh = rectangle(width=length, height=height, nx=cells[0], ny=cells[1], cells="quad8")
+    guide = [Support("bottom", u=(None, 0.0))] if guided else []
+    clamp = [Support("left", u=(0.0, None))] if clamped else []
+    return Model(mesh, kind="plane stress", bodies=[Body("block", _STEEL)], supports=[*guide, *clamp])
+
+
+def thin_disc(radius: float, nu: float, cells: int, family: Literal["quad", "quad8"]) -> Model:
+    """A slice of a long cylinder that moves radially alone: axisymmetric, with a modulus and a density of 1.
+
+    Parameters
+    ----------
+    radius : of the disc
+    nu : Poisson's ratio
+    cells : along the radius
+    family : of the cells
+    """
+    mesh = rectangle(width=radius, height=radius / cells, nx=cells, ny=1, cells=family)
+    return Model(
+        mesh,
+        kind="axisymmetric",
+        bodies=[Body("block", Elastic(E=1.0, nu=nu, density=1.0))],
+        supports=[Support("bottom", u=(None, 0.0)), Support("top", u=(None, 0.0))],
+    )

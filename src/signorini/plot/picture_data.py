@@ -19,14 +19,14 @@ from signorini.plot.walls import Wall, walls_of
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
 
-# corners of cells of the plane and the nodes between them, in the order around
-_CELL_OUTLINES = {
+CELL_OUTLINES = {
     "triangle": [0, 1, 2],
     "quad": [0, 1, 2, 3],
     "triangle6": [0, 3, 1, 4, 2, 5],
     "quad8": [0, 4, 1, 5, 2, 6, 3, 7],
     "quad9": [0, 4, 1, 5, 2, 6, 3, 7],
 }
+"""Corners of cells of the plane and the nodes between them, in the order around."""
 
 _FLOWED = 0.05  # of the largest equivalent plastic strain: pictures look at what has flowed more
 
@@ -142,7 +142,7 @@ class PictureData:
     def outlines(self) -> list[IntArray]:
         """Cells of the plane, of every block (m, k) the points around them."""
         pairs = zip(self.bodies.families, self.bodies.cells, strict=True)
-        return [cells[:, _CELL_OUTLINES[family]] for family, cells in pairs]
+        return [cells[:, CELL_OUTLINES[family]] for family, cells in pairs]
 
     @cached_property
     def skin(self) -> Skin:

@@ -47,3 +47,8 @@ class NaturalModes(Short):
     def frequencies(self) -> Array:
         """(k,) Cycles per time: Hz, where time is in seconds."""
         return np.asarray(np.sqrt(self.squares) / (2.0 * np.pi))
+
+    @property
+    def effective_masses(self) -> Array:
+        """(k, d) Mass that moves with each mode along the axes, ``(sum M v)^2``; of all modes that of the bodies."""
+        return np.asarray(self.forces.sum(axis=1) ** 2)

@@ -26,6 +26,7 @@ from signorini.verify import (
     sliding,
     solids,
     space,
+    vibration,
     wear,
 )
 from signorini.verify.check import Check
@@ -90,6 +91,8 @@ QUICK: tuple[Case, ...] = (
     rolling.tilted_block,
     bolts.stiffness_diagram,
     sectors.ring_and_sector,
+    vibration.frequencies,
+    vibration.bar_in_bed,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,

@@ -113,6 +113,7 @@ def _measured(inverse: JointInverse, joint: str, pairs: Pairs, missed: int | Non
     rounding = ROUNDOFF * np.einsum("ij,ij->j", np.abs(vectors), abs(K) @ np.abs(vectors))
     squares = np.where(squares <= rounding, 0.0, squares)
     left = on_stiffness - squares * on_mass
+    left += inverse.ties.B.T @ inverse.ties.forces(left)
     residuals = np.sqrt(np.abs(np.einsum("ij,ij->j", left, inverse(left))) / (squares + ready.shift))
     products = np.abs(vectors.T @ on_mass - np.eye(len(squares)))
     u = bodies.constraints.transform @ (vectors * _signs(vectors))
