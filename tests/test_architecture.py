@@ -9,6 +9,7 @@ import ast
 import collections
 import functools
 import graphlib
+import itertools
 import re
 import sys
 from pathlib import Path
@@ -309,6 +310,26 @@ def constants_without_meaning():
                 yield path, line, f"{name} says neither of what nor what for"
 
 
+def constants_without_comment():
+    """Module constants of one number beside, above or below which no word says of what it is and why."""
+    for path in FILES:
+        lines, said = path.read_text().splitlines(), 0
+        body = [*tree(path).body, None]
+        for node, after in itertools.pairwise(body):
+            if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
+                continue
+            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+            number = isinstance(node.value, ast.Constant) and isinstance(node.value.value, int | float)
+            number |= isinstance(node.value, ast.UnaryOp | ast.BinOp) and not isinstance(node.value.op, ast.BitOr)
+            written = isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant)
+            around = lines[max(node.lineno - 2, 0) : node.end_lineno]
+            # what is said of one holds for those that follow at once
+            if written or node.lineno == said + 1 or "#" in "".join(around):
+                said = node.end_lineno
+            elif number and isinstance(target, ast.Name) and target.id.isupper():
+                yield path, node.lineno, f"{target.id}: no comment says of what it is, in which unit and why"
+
+
 RULES = {
     "files": long_files,
     "signatures": many_parameters,
@@ -316,6 +337,7 @@ RULES = {
     "parameters": silent_parameters,
     "classes": classes_of_one_name,
     "constants": constants_without_meaning,
+    "comments": constants_without_comment,
 }
 
 

@@ -25,6 +25,8 @@ from signorini.solution.state import initial_state
 Timer = Callable[[], float]
 
 REPEATS = 5
+"""Solves of each kind of which the medians are compared."""
+
 _REPEATS_SECONDS, _MIN_REPEATS = 40.0, 3  # where repeats take longer, the fewest have to do
 
 

@@ -17,7 +17,7 @@ from signorini.fem.space import Block, Space
 from signorini.meshing.facets import HEXAHEDRON
 from signorini.model.model import Model
 
-_AT_ONCE = 1 << 16
+_AT_ONCE = 1 << 16  # cells of a group: fields at all their points are held at a time, whatever the size of the mesh
 BRICKS = {"quad": np.array(HEXAHEDRON[:4])[:, :2] - 1.0, "hexahedron": np.array(HEXAHEDRON[:8]) - 1.0}
 """Families that have the incompatible formulation, with one internal mode along every reference axis; their corners."""
 

@@ -36,7 +36,10 @@ RESIDUAL_ROUNDING = 1e-13
 """What an iterate may lack, relative, without one more step."""
 
 SHORTEST_STEP = 2.0**-6
+"""Part of a Newton step that is tried last; then the best part is taken, whatever it lacks."""
+
 DECREASE = 1e-4
+"""Of the violation that a step must undercut, times its length: by how much, so that progress is no rounding."""
 
 _STATES_FORWARD = 1e-3  # of what the last states lack in the next ones: enough for the states that follow
 _FORWARD = 1e-2, 1e-4  # of what the last iterate lacks: what may be left while states change, and once none does

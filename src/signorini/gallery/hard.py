@@ -25,8 +25,8 @@ PROBLEMS = 650
 
 _FAMILIES = ("block", "two blocks", "skew block", "wedge", "peg", "corner", "punch")
 _FRICTION = (0.0, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 3.0)
-_SEED = 1993
-_KINDS = ("any",) * 8 + ("small",) * 3 + ("critical",) * 2
+_SEED = 1993  # any number: the set is the same ever after
+_KINDS = ("any",) * 8 + ("small",) * 3 + ("critical",) * 2  # in turn: 400, 150 and 100 of 650
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,6 +22,8 @@ RADIUS = 1000.0
 
 LINE_FORCE = float(np.pi * MODULUS / (4.0 * RADIUS))
 POINT_FORCE = 4.0 * MODULUS / (3.0 * RADIUS)
+"""Forces under which contact has this half-width (force per length) or radius, by Hertz."""
+
 SEAT = 1.2
 """Half-width of the part with even cells, where the bodies may touch."""
 

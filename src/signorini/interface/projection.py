@@ -9,7 +9,7 @@ from numba import njit
 from signorini.arrays import Array, IntArray
 from signorini.fem.facets import shapes, slopes
 
-_STEPS = 20
+_STEPS = 20  # of Newton, at most; what has no place by then has none
 _STILL = 1e-10  # of a reference face: the step after that is rounding
 
 

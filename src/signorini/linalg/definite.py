@@ -23,6 +23,7 @@ SUSPICIOUS_PIVOT = 1e-5
 """A pivot this small against its diagonal entry calls for the test of the energy."""
 
 ROUNDOFF = 16 * float(np.finfo(np.float64).eps)
+"""Of the size of the terms that an energy is the sum of: what rounding may leave where it is 0."""
 
 
 def check_energy(system: System, factor: Factorisation) -> None:

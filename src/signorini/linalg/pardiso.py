@@ -31,12 +31,12 @@ from signorini.linalg.definite import check_energy
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
 from signorini.linalg.system import System, as_columns, interface_lift, like
 
-SYMMETRIC_POSITIVE_DEFINITE = 2
+SYMMETRIC_POSITIVE_DEFINITE = 2  # its number among kinds of matrices
 SETTINGS = {1: 1, 2: 2, 18: -1, 21: 0, 24: 0}
 """Parameters (counted from 1): own values, METIS order, count the factor, no Bunch-Kaufman, classic factorisation."""
 
 SCHUR, FORWARD, BACKWARD, ANALYSE, FACTORISE, RELEASE = 36, 331, 333, 11, 22, -1
-NOT_POSITIVE = -4
+NOT_POSITIVE = -4  # what it returns then
 FAILURES = {-1: "inconsistent input", -2: "not enough memory", -3: "reordering", -8: "integers too small", -9: "memory"}
 
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.figure import Figure
 
-_FRAMES_PER_SECOND = 12
+_FRAMES_PER_SECOND = 12  # enough for motion to look even
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

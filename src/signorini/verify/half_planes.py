@@ -14,7 +14,7 @@ from signorini.reference.spence import stick_ratio
 from signorini.solution.results import ContactResult
 from signorini.verify.check import Check, checks_of
 
-_PULL = 0.7
+_PULL = 0.7  # of the tangential force over that of sliding: most of the contact slips, and much still sticks
 _BONDED = 0.543076  # shear over pressure at the corner of a bonded square block (benchmark B07)
 
 

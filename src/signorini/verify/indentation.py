@@ -22,7 +22,7 @@ from signorini.reference.hertz import contact_modulus
 from signorini.reference.plasticity import first_yield_line, first_yield_point, punch_limit, rolling_shakedown_limit
 from signorini.verify.check import Check, checks_of
 
-_RADIUS = 1000.0
+_RADIUS = 1000.0  # of the ball and the cylinder: contact is small beside it
 _DEPTH = 0.368  # depth R / a^2 of a ball in a perfectly plastic body: Richmond, Morrison, Devenpeck (1974)
 _PASSES = 5  # of the cylinder that rolls: by then what they add above the limit is the same to a thousandth
 _MODULUS = contact_modulus((E, NU))

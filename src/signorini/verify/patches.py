@@ -22,7 +22,7 @@ from signorini.model.step import Step
 from signorini.solution.history import History
 from signorini.verify.check import Check, Row, checks_of, farthest
 
-_EXACT = 1e-9
+_EXACT = 1e-9  # of the value: all of it is rounding
 _MESHES: tuple[tuple[Cells, tuple[int, int]], ...] = (
     ("quad", (4, 4)),
     ("triangle", (4, 4)),

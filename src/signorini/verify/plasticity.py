@@ -35,7 +35,7 @@ from signorini.verify.check import Check, checks_of
 from signorini.verify.yielding_points import yielding_points
 
 _HILL = HillTube(inner=1.0, outer=2.0, shear_strength=SHEAR_STRENGTH)
-_PRESSURE = 1.2 * SHEAR_STRENGTH
+_PRESSURE = 1.2 * SHEAR_STRENGTH  # inside the tube: between first yield and the limit, 1.39
 _PRESSED = (Step(increments=1),)
 _RELEASED = (*_PRESSED, Step(scale={"pressure": 0.0}))
 _AGAIN = (*_RELEASED, Step(scale={"pressure": 1.1}, increments=1))

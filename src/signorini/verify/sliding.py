@@ -13,7 +13,7 @@ from signorini.gallery.sliding import HALF_WIDTH, PRESSING, dragged_cylinder, dr
 from signorini.solution import results
 from signorini.verify.check import Check, checks_of
 
-_FRICTION = 0.3
+_FRICTION = 0.3  # coefficient of all of them
 _RATIO = 0.64  # of the tangential force over that of sliding: Carter's case of which CONTACT's guide tells the numbers
 
 

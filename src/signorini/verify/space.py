@@ -19,7 +19,7 @@ from signorini.reference.hertz_point import round_punch
 from signorini.verify.check import Check, checks_of, farthest
 from signorini.verify.rings import fit_pressure
 
-_PULL = 0.7
+_PULL = 0.7  # of the tangential force over that of sliding: most of the contact slips, and much still sticks
 
 
 def ball_on_plane() -> Iterator[Check]:
