@@ -32,25 +32,34 @@ class Reach:
     ----------
     folder : of the deck; names are relative to it
     also : folders in which, and below which, files may be read too
+    search : those of them in which a relative name is looked for that the folder of the deck does not have, in turn
     """
 
     folder: Path
     also: tuple[Path, ...] = ()
+    search: tuple[Path, ...] = ()
 
     @classmethod
-    def of(cls, deck: Path, also: Iterable[str | Path] = ()) -> Reach:
-        """The reach of a deck, and of folders allowed besides.
+    def of(cls, deck: Path, also: Iterable[str | Path] = (), search: Iterable[str | Path] = ()) -> Reach:
+        """The reach of a deck, of folders allowed besides, and of folders in which names are looked for too.
+
+        Parameters
+        ----------
+        deck : file of it
+        also : folders that are allowed
+        search : folders that are allowed, and in which names are looked for
 
         Raises
         ------
         InputError
-            If what is allowed is no folder.
+            If what is allowed or searched is no folder.
         """
-        folders = tuple(Path(name) for name in also)
-        for folder in folders:
-            if not folder.is_dir():
-                raise InputError(f"there is no folder '{folder}'", where=("--allow",))
-        return cls(folder=deck.parent, also=folders)
+        allowed, searched = (tuple(Path(name) for name in names) for names in (also, search))
+        for folders, option in ((allowed, "--allow"), (searched, "--include")):
+            for folder in folders:
+                if not folder.is_dir():
+                    raise InputError(f"there is no folder '{folder}'", where=(option,))
+        return cls(folder=deck.parent, also=allowed + searched, search=searched)
 
     @property
     def top(self) -> Path:
@@ -77,7 +86,7 @@ class Reach:
         if _NETWORK.match(name):
             raise InputError(f"'{shown}' is on a network; expected a file on this computer", where=where)
         try:
-            path = self.folder / name
+            path = self._found(name)
             self._check_place(shown, path.resolve())
             check_file(path)
         except (OSError, ValueError, RuntimeError) as error:  # names that no file can have
@@ -86,6 +95,11 @@ class Reach:
             why = getattr(error, "strerror", None) or error
             raise InputError(f"'{shown}' is no name of a file: {why}", where=where) from error
         return path
+
+    def _found(self, name: str) -> Path:
+        """The file in the folder of the deck; if there is none, the first of that name in a folder that is searched."""
+        places = [folder / name for folder in (self.folder, *self.search)]
+        return next((place for place in places if os.path.exists(place)), places[0])
 
     def _check_place(self, shown: str, file: Path) -> None:
         """Refuse a file, without links in its name, that is too far away or hidden."""

@@ -87,6 +87,28 @@ def test_the_user_can_allow_more(deck: Path, capsys: pytest.CaptureFixture[str])
         read_cards(deck, Reach.of(deck, [home]))
 
 
+def test_names_are_looked_for_in_folders_that_are_included(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The folder of the deck comes first; a folder that is included is left by no name, as that of the deck is not."""
+    home = deck.parents[3]
+    library = home / "library"
+    library.mkdir()
+    library.joinpath("common.inc").write_text("*NODE\n7, 0., 0.\n")
+    library.parent.joinpath("outside.inc").write_text("*NODE\n8, 0., 0.\n")
+    deck.write_text("*INCLUDE, INPUT=common.inc\n")
+    reach = Reach.of(deck, search=[library])
+    assert read_cards(deck, reach)[0].path == library / "common.inc"
+    deck.with_name("common.inc").write_text("*NODE\n1, 0., 0.\n")
+    assert read_cards(deck, reach)[0].path == deck.with_name("common.inc")
+    deck.write_text("*INCLUDE, INPUT=../../outside.inc\n")
+    with pytest.raises(InputError, match=r"there is no file|not near"):
+        read_cards(deck, reach)
+    deck.write_text("*INCLUDE, INPUT=../outside.inc\n")
+    with pytest.raises(InputError, match="not near"):
+        read_cards(deck, reach)
+    assert main(["check", str(deck), "--include", str(deck)]) == 2
+    assert capsys.readouterr().err == f"signorini: --include: there is no folder '{deck}'\n"
+
+
 def test_the_root_of_the_file_system_is_near_to_nothing() -> None:
     assert Reach(folder=Path("/a/b")).top == Path("/a")
     with pytest.raises(InputError, match="not near"):

@@ -79,4 +79,5 @@ def _load(options: argparse.Namespace) -> Deck:
         small_strain=options.small_strain,
         deck_increments=options.increments == "deck",
         allow=options.allow,
+        include=options.include,
     )

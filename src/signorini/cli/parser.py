@@ -25,14 +25,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"signorini {__version__}")
     shared = argparse.ArgumentParser(add_help=False)
     shared.add_argument("--debug", action="store_true", help="show where an internal error happened")
-    keywords = argparse.ArgumentParser(add_help=False)
-    keywords.add_argument("--small-strain", action="store_true", help="solve with small displacements despite NLGEOM")
-    keywords.add_argument(
-        "--increments", choices=("own", "deck"), default="own", help="of an .inp deck (own: as few as are exact)"
-    )
-    keywords.add_argument(
-        "--allow", action="append", default=[], metavar="DIR", help="let the deck name files in DIR and below too"
-    )
+    keywords = _deck_options()
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     _add_run(commands, [shared, keywords])
@@ -74,6 +67,26 @@ def make_parser() -> argparse.ArgumentParser:
     bench.add_argument("--sample", type=int, metavar="N", help="of the hard set so many problems, spread over it")
     bench.add_argument("--json", metavar="FILE", help="write the table as JSON")
     return parser
+
+
+def _deck_options() -> argparse.ArgumentParser:
+    """Options of all commands that read a deck."""
+    keywords = argparse.ArgumentParser(add_help=False)
+    keywords.add_argument("--small-strain", action="store_true", help="solve with small displacements despite NLGEOM")
+    keywords.add_argument(
+        "--increments", choices=("own", "deck"), default="own", help="of an .inp deck (own: as few as are exact)"
+    )
+    keywords.add_argument(
+        "--allow", action="append", default=[], metavar="DIR", help="let the deck name files in DIR and below too"
+    )
+    keywords.add_argument(
+        "--include",
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="look for files that the deck names in DIR too, and allow them",
+    )
+    return keywords
 
 
 def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:

@@ -25,7 +25,12 @@ _KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "solver", *F
 
 
 def read(
-    path: str | Path, *, small_strain: bool = False, deck_increments: bool = False, allow: Iterable[str | Path] = ()
+    path: str | Path,
+    *,
+    small_strain: bool = False,
+    deck_increments: bool = False,
+    allow: Iterable[str | Path] = (),
+    include: Iterable[str | Path] = (),
 ) -> Model:
     """Read the model of a deck; `load` gives what else it says, limits of the solver (``[solver]``) among it.
 
@@ -35,26 +40,34 @@ def read(
     small_strain : solve an ``.inp`` deck that asks for large displacements (NLGEOM) with small ones
     deck_increments : follow the increments of an ``.inp`` deck instead of the package's rule
     allow : folders in which files that the deck names may be, besides those near it (:class:`signorini.sources.Reach`)
+    include : such folders in which relative names are looked for too, where the folder of the deck has no such file
 
     Raises
     ------
     DeckError
         An :class:`InputError` that begins with file and line: ``deck.toml:12: contact[0].friction: ...``.
     """
-    return load_deck(path, small_strain=small_strain, deck_increments=deck_increments, allow=allow).model
+    return load_deck(
+        path, small_strain=small_strain, deck_increments=deck_increments, allow=allow, include=include
+    ).model
 
 
 def load_deck(
-    path: str | Path, *, small_strain: bool = False, deck_increments: bool = False, allow: Iterable[str | Path] = ()
+    path: str | Path,
+    *,
+    small_strain: bool = False,
+    deck_increments: bool = False,
+    allow: Iterable[str | Path] = (),
+    include: Iterable[str | Path] = (),
 ) -> Deck:
     """Read a deck and keep its lines, so that errors found later can be told with theirs.
 
     Parameters
     ----------
-    path, small_strain, deck_increments, allow : as :func:`read` has them
+    path, small_strain, deck_increments, allow, include : as :func:`read` has them
     """
     path = Path(path)
-    reach = Reach.of(path, allow)
+    reach = Reach.of(path, allow, include)
     if path.suffix.lower() == ".inp":
         return read_deck(path, reach, small_strain=small_strain, deck_increments=deck_increments)
     data, lines = parse(path)
