@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from signorini.deck import read
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
+    from signorini.law.closure import Closure
     from signorini.meshing.cut import cut
     from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
     from signorini.meshing.profile import mesh_profile, read_profile
@@ -53,6 +54,7 @@ __all__ = [
     "Body",
     "Bolt",
     "Circle",
+    "Closure",
     "Cone",
     "Contact",
     "CyclicSymmetry",
@@ -115,6 +117,7 @@ _HOMES = {
     "signorini.api": ("Solution", "load", "solve"),
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
+    "signorini.law.closure": ("Closure",),
     "signorini.meshing.cut": ("cut",),
     "signorini.meshing.plane": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.meshing.profile": ("mesh_profile", "read_profile"),

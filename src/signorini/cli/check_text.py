@@ -148,6 +148,8 @@ def _contacts(examined: Examined) -> Rows:
         pairing = examined.interface.sides[i]
         sides = f"{pairing.nonmortar} on {pairing.mortar}"
         friction = "tied" if contact.tied else _friction(contact, points)
+        if contact.closure is not None:
+            friction += f", {contact.closure.words}"
         if contact.facets:
             friction += f" on {contact.facets} facets"
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"

@@ -162,6 +162,11 @@ class Condensed:
             **_image(response, root, compliance),
         )
 
+    def closing(self, compliance: Array) -> Condensed:
+        """Bodies whose interface gives way otherwise along its normals, (a,) length per force; K stays factorised."""
+        both = np.concatenate([compliance[None], self.compliance[1:]])
+        return replace(self, compliance=both, **_image(self.response, self.root, both))
+
     def paired(self, B: sp.csr_array, interface: Interface, stiffness: float) -> Condensed:
         """Bodies whose pairs are others; nothing is factorised again.
 

@@ -11,6 +11,7 @@ from signorini.checks import choice, text
 from signorini.deck.keys import check_keys, make, table, tables
 from signorini.deck.varying import deck_value, deck_values
 from signorini.errors import InputError, Where, one_of
+from signorini.law.closure import Closure
 from signorini.law.friction import LAWS, FrictionLaw
 from signorini.model.body import Body
 from signorini.model.bolt import Bolt
@@ -167,6 +168,12 @@ def _friction(entry: dict[str, Any], where: Where) -> Along | FrictionLaw:
     return make(Along, {"axis": axes[0], "at": entry[axes[0]], "values": entry["mu"]}, where)
 
 
+def _closure(entry: dict[str, Any], where: Where) -> Closure:
+    """``{ points = [...] }``, or ``{ clearance = ..., pressure = ... }`` of the exponential law."""
+    exponential = {"clearance", "pressure", "tolerance"} & set(entry)
+    return make(Closure.exponential if exponential else Closure, entry, where)
+
+
 def _shape(key: str, value: Any, where: Where, reach: Reach, mesh: Mesh) -> Obstacle:
     """A rigid shape; profiles and surfaces may be in a file, or be a boundary of the deck's mesh."""
     entry = {"file": value} if key == "surface" and isinstance(value, str) else table(value, where)
@@ -234,6 +241,9 @@ def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> C
         given["friction"] = _friction(given["friction"], (*where, "friction"))
     if "wear" in given:
         given["wear"] = make(Wear, table(given["wear"], (*where, "wear")), (*where, "wear"))
+    if "closure" in given:
+        inside: Where = (*where, "closure")
+        given["closure"] = _closure(table(given["closure"], inside), inside)
     given = _varied(given, where, reach, mesh.points.shape[1])
     sides = [key for key in ("mortar", *OBSTACLES) if key in given]
     if len(sides) != 1:

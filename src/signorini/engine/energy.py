@@ -67,4 +67,8 @@ def stored_energy(prepared: Prepared, state: State) -> float:
 def interface_energy(prepared: Prepared, state: State) -> float:
     """In compliant interfaces."""
     forces = np.where(prepared.absent, 0.0, state.forces)
-    return 0.5 * float(np.vdot(forces**2, prepared.interface.compliance))
+    interface = prepared.interface
+    if interface.closure is None:
+        return 0.5 * float(np.vdot(forces**2, interface.compliance))
+    along = 0.5 * float(np.vdot(forces[1:] ** 2, interface.compliance[1:]))
+    return along + float(interface.area @ interface.closure.energy(forces[0] / interface.area))

@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 
 from signorini.attempt import MethodRun, Spent
+from signorini.engine.closure_paths import LinesPath, follow_on_lines, on_their_lines
 from signorini.engine.energy import set_free
 from signorini.engine.floating_bodies import approached, resting, undisturbed
 from signorini.engine.increments import certified, leaving, refuse_overlap
@@ -51,12 +52,14 @@ class _Path:
     ----------
     start : its state before, in the scaled units of the law
     stops : how increments were chosen, None on an exact path
+    lines : those of pairs that close by a law, where any does
     """
 
     part: StepPart
     start: PathState
     segment: Segment
     stops: PathSettings | None
+    lines: LinesPath | None = None
 
     @property
     def reached(self) -> float:
@@ -136,7 +139,7 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings 
             continue
         landing: Landing | Spent | None = None
         if jumps and len(behind) < JUMPS:
-            landing = part.prepared.paths.land(path.start, path.segment, stops)
+            landing = _landing(path)
         if not isinstance(landing, Landing):
             if jumps and len(behind) >= JUMPS:
                 lost = lost.saying(f"{JUMPS} parts between jumps, as many as are followed, are behind")
@@ -187,6 +190,9 @@ def _follow(part: StepPart, stops: PathSettings | None) -> _Path:
         prepared.clock.says(f"{part.where} at {part.interval.fraction(done):.1%}")
 
     with prepared.clock.phase("complementarity"):
+        if prepared.interface.closure is not None:
+            found = follow_on_lines(part, stops, tell)
+            return _Path(part=found.part, start=found.start, segment=found.segment, stops=stops, lines=found)
         start, b = path_state(prepared, part.before), right_hand_side(prepared, part.end)
         segment = prepared.paths.follow(start, b, stops, tell)
     return _Path(part=part, start=start, segment=undisturbed(part, segment), stops=stops)
@@ -231,6 +237,14 @@ def _until(path: _Path, t: float) -> FollowedPart:
     """The path up to the fraction t of its part, certified."""
     shorter = path.segment.until(t * path.reached)
     return _part_along(replace(path, segment=shorter, part=path.part.cut(t, "event")))
+
+
+def _landing(path: _Path) -> Landing | Spent | None:
+    """Where a path goes on behind its jump; nowhere if pairs leave the lines of their closures on the way."""
+    landing = path.part.prepared.paths.land(path.start, path.segment, path.stops)
+    if path.lines is None or not isinstance(landing, Landing):
+        return landing
+    return landing if on_their_lines(path.lines, landing.state) else None
 
 
 def _landed(part: StepPart, state: State, landing: Landing) -> FollowedPart:

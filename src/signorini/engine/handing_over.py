@@ -45,7 +45,7 @@ def posed(prepared: Prepared, state: State, last: Interface, gap: Array) -> Stat
     own, faces = sliding_pairs(prepared.model, interface), facing(interface)
     there = np.where(faces, turned(state.forces, last, interface), 0.0)
     forces = np.where(own, there, state.forces)
-    moved = interface.motion(state.displacement) + interface.compliance * forces
+    moved = interface.motion(state.displacement) + interface.give(forces)
     touches = faces & (state.status != OPEN)
     point_gap = np.where(touches, state.gap - moved[0], gap)
     return replace(

@@ -109,7 +109,7 @@ class MultiplierSolver:
         bodies, own, system = self.bodies, self.bodies.pairs, increment.system
         load = IncrementLoad(
             f=bodies.blocks.spread(increment.f),
-            offset=increment.offset[:, own],
+            offset=bodies.rested(increment.offset[:, own]),
             bound=system.interface.bound.among(np.isin(np.arange(len(bodies.active)), own)),
             force=system.scale.force,
             length=length,

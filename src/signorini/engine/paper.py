@@ -99,17 +99,18 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
     """
     prepared = model if isinstance(model, Prepared) else prepare(model)
     E_n, E_tau = number(E_n, ("E_n",), above=0.0), number(E_tau, ("E_tau",), above=0.0)
-    interface, condensed = prepared.interface, prepared.paths.condensed
     for i, body in enumerate(prepared.model.bodies):
         if body.material.yields:
             raise InputError(f"'{body.name}' yields; the paper's bodies are elastic", where=("body", i, "material"))
     for i, contact in enumerate(prepared.model.contacts):
-        if contact.friction in ("stick", "tied") or contact.normal_compliance or contact.tangential_compliance:
+        supple = contact.normal_compliance or contact.tangential_compliance or contact.closure
+        if contact.friction in ("stick", "tied") or supple:
             raise InputError("the paper's law has a finite friction and its own penalties", where=("contact", i))
         if contact.wear is not None:
             raise InputError("the paper's sides do not wear; expected none", where=("contact", i, "wear"))
         if not contact.coulomb:
             raise InputError("the paper's law is Coulomb's, without adhesion or shear limit", where=("contact", i))
+    interface, condensed = prepared.interface, prepared.paths.condensed
     if not condensed.active.any():
         raise InputError("there is none that can move; the paper's LCP needs one", where=("contact",))
     loads, imposed = applied(prepared, _full_load(prepared))

@@ -36,7 +36,7 @@ def right_hand_side(prepared: Prepared, point: LoadPoint, slipped: Array | None 
     point : of the load history
     slipped : (d - 1, n) tangential displacements that slips are counted from, length; from the beginning if not given
     """
-    condensed, offset = prepared.paths.condensed, offsets(prepared, point)
+    condensed, offset = prepared.paths.condensed, prepared.paths.rested(offsets(prepared, point))
     if slipped is not None:
         offset[1:] -= slipped
     reduced = condensed.reduce(free_load(prepared, point))
@@ -100,7 +100,7 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
     condensed, interface, T = prepared.paths.condensed, prepared.interface, prepared.constraints.transform
     active = condensed.active
     seen = on_the_way(prepared, last, point, now)
-    (loads, imposed), offset = applied(prepared, point), offsets(prepared, point)
+    (loads, imposed), offset = applied(prepared, point), prepared.paths.rested(offsets(prepared, point))
     reduced = condensed.reduce(free_load(prepared, point))
     free = condensed.displacement(reduced, seen.motion[:, active], seen.forces[:, active], offset[:, active])
     displacement = T @ free + imposed

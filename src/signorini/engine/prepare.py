@@ -15,6 +15,7 @@ from signorini.condense.condensed import Condensed
 from signorini.condense.ties import Ties
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_model
+from signorini.engine.closure_solver import closing
 from signorini.engine.condensation import condense_bodies, free_bodies
 from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
 from signorini.engine.memory_check import iterates, refuse_unassembled
@@ -365,7 +366,7 @@ def _made(
         **data,
         K=K,
         absent=np.zeros(len(interface), bool),
-        solver=solver,
+        solver=solver if interface.closure is None else closing(solver),
         clock=clock,
         backend=backend,
         candidates=candidates,

@@ -19,6 +19,7 @@ from signorini.engine.step_parts import FollowedPart
 from signorini.engine.turning import forces_in_space
 from signorini.engine.validity_notes import step_notes
 from signorini.fem.obstacles import arm
+from signorini.interface.interface import Interface
 from signorini.law.states import OPEN, STICK
 from signorini.model.links import directions
 from signorini.model.stage import Stage
@@ -312,7 +313,7 @@ def _contact_result(
     dissipation = (state.dissipation - before.dissipation)[own]
     return ContactResult(
         name=surface.name,
-        gap=frozen(state.gap[own] - interface.normal_compliance[own] * normal / area),
+        gap=frozen(_distance(interface, state)[own]),
         pressure=frozen(normal / area),
         traction=frozen(_by_pair(state.forces[1:, own] / area)),
         slip=frozen(_by_pair(state.slip[:, own])),
@@ -324,6 +325,13 @@ def _contact_result(
         wear=_contact_wear(prepared, surface, state),
         **surface.fixed,
     )
+
+
+def _distance(interface: Interface, state: State) -> Array:
+    """(n,) Gaps of the sides themselves, below 0 where they have closed on what lies between them."""
+    if interface.closure is not None:
+        return interface.closure.distance(state.gap, state.forces[0] / interface.area)
+    return np.asarray(state.gap - interface.normal_compliance * state.forces[0] / interface.area)
 
 
 def _contact_wear(prepared: Prepared, surface: _Surface, state: State) -> ContactWear | None:

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The one door to what solves increments of contact, and the way through it that is taken where it fits in memory.
 
-`ContactSolver` is the door. `CondensedSolver` condenses the bodies onto their pairs and follows paths from event to
-event too; `signorini.engine.multipliers` iterates on the bodies as they are.
+`ContactSolver` is the door. `CondensedSolver` condenses the bodies and follows paths from event to event too.
 """
 
 from __future__ import annotations
@@ -179,11 +178,13 @@ class CondensedSolver:
     condensed : the interface as the bodies feel it
     law : of the active pairs, without load, in the scaled units of `Condensed`
     settings : limits of the methods
+    rest : (n,) what the interface has closed without force, length; None for nothing
     """
 
     condensed: Condensed
     law: ContactProblem
     settings: SolverSettings
+    rest: Array | None = None
 
     @staticmethod
     def of(condensed: Condensed, interface: Interface, scale: Scale, settings: SolverSettings) -> CondensedSolver:
@@ -262,7 +263,7 @@ class CondensedSolver:
         would bend them far. Their forces are then those of all digits of the displacements.
         """
         condensed, law, system, f = self.condensed, self.law, increment.system, increment.f
-        offset, interface, scale = increment.offset, system.interface, system.scale
+        offset, interface, scale = self.rested(increment.offset), system.interface, system.scale
         own, T, ties = np.flatnonzero(condensed.active), system.constraints.transform, condensed.ties
         forces, moved, free = np.zeros_like(offset), np.zeros_like(offset), np.zeros_like(f)
         residual, misfit, b, lost = f, offset[:, own], np.zeros(len(law.b)), 0.0
@@ -306,6 +307,10 @@ class CondensedSolver:
             lost=lost,
             escape=None if result.escape is None or not law.floating else self.floating(result.escape),
         )
+
+    def rested(self, offset: Array) -> Array:
+        """(d, n) Motions of the pairs that loads do not cause, and what the interface has closed without force."""
+        return offset if self.rest is None else np.concatenate([offset[:1] + self.rest, offset[1:]])
 
     def _allowed(self, lack: float, scale: Scale) -> float:
         """Residual of the law where forces and motions of the pairs lack a part of the sizes of the data."""

@@ -13,6 +13,7 @@ from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import condense
 from signorini.condense.kept import Kept
+from signorini.engine.closure_solver import closing
 from signorini.engine.condensation import free_bodies
 from signorini.engine.examine import Examined
 from signorini.engine.multipliers import PATIENCE, make_multipliers
@@ -116,7 +117,8 @@ class TangentBodies:
         examined, settings = self.examined, self.settings
         if self.whole:
             found = make_multipliers(examined, reduced, self.bodies.B, self.near, settings)
-            return replace(found, bodies=replace(found.bodies, patience=PATIENCE))
+            found = replace(found, bodies=replace(found.bodies, patience=PATIENCE))
+            return found if examined.interface.closure is None else closing(found)
         scale = examined.scale
         condensed = condense(
             self.bodies._replace(K=reduced),
@@ -128,7 +130,8 @@ class TangentBodies:
             clock=clock,
             plans=self.plans,
         )
-        return CondensedSolver.of(condensed, examined.interface, scale, settings)
+        made = CondensedSolver.of(condensed, examined.interface, scale, settings)
+        return made if examined.interface.closure is None else closing(made)
 
     def substitution_share(self, solver: ContactSolver, operations: float) -> float | None:
         """Price of a round on the factor at hand over that of one on a new factor; None: not known, or in the plane.

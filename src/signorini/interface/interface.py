@@ -21,6 +21,7 @@ from signorini.interface.frames import LEAST_SINE, along_tangents, tangents
 from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.law.bound import Bound
+from signorini.law.closure import PairClosure
 from signorini.law.friction import FrictionLaw, PairFriction
 from signorini.law.section import FrictionSection
 from signorini.model.model import Model
@@ -55,6 +56,8 @@ class Interface:
     normal_compliance, tangential_compliance : (n,) length per pressure
     tied : (n,) whether the pair neither slips nor opens
     sides : how every contact was paired
+    closure : of the pairs, by their lines; None where they have one compliance each. Where it is there the normal
+        compliance of its pairs is the mean one up to the last point
     """
 
     B: sp.csr_array
@@ -72,6 +75,7 @@ class Interface:
     tangential_compliance: Array
     tied: BoolArray
     sides: tuple[Sides, ...]
+    closure: PairClosure | None = None
 
     def __len__(self) -> int:
         return len(self.gap)
@@ -92,6 +96,8 @@ class Interface:
             for field in fields(self)
             if isinstance(value := getattr(self, field.name), np.ndarray) and len(value) == len(kept)
         }
+        if self.closure is not None:
+            parts["closure"] = self.closure.among(kept)
         return replace(self, B=self.B[self.rows(kept)], friction=self.friction.among(kept), **parts)
 
     def motion(self, displacement: Array) -> Array:
@@ -114,6 +120,13 @@ class Interface:
         """(d, n) of the pairs, length per force."""
         tangential = [self.tangential_compliance] * (self.directions - 1)
         return np.stack([self.normal_compliance, *tangential]) / self.area
+
+    def give(self, forces: Array) -> Array:
+        """(d, n) How far forces (d, n) move the sides of the pairs on what lies between them, length."""
+        given = self.compliance * forces
+        if self.closure is not None:
+            given[0] = self.closure.at(np.maximum(forces[0], 0.0) / self.area)
+        return given
 
     @property
     def bound(self) -> Bound:
@@ -168,11 +181,12 @@ def make_interface(
         [model.contacts[i].law for i in chosen], [space.mesh.points[part.coupling.nodes] for part in parts]
     )
     facets = np.array([contact.facets for contact in model.contacts], np.int64)[index]
+    gap, closure = _joined([part.gap for part in parts], (0,)), _closure(model, chosen, parts)
     B = _relative_rows(space, model, parts, normals, axes, still)
     own = [part.own for part in parts]
     return Interface(
         B=B,
-        gap=_joined([part.gap for part in parts], (0,)),
+        gap=gap if closure is None else gap - closure.clearance,
         area=area,
         normals=normals,
         tangents=axes,
@@ -182,13 +196,23 @@ def make_interface(
         friction=friction,
         anisotropy=_anisotropy(model, [contact.law for contact in model.contacts], axes, index),
         facets=np.where(friction.sticks, 0, facets),
-        normal_compliance=data("normal_compliance"),
+        normal_compliance=data("mean_compliance"),
         tangential_compliance=np.maximum(
             data("tangential_compliance"), _of_shared_nodes(space, model, node, friction.rubs)
         ),
         tied=data("tied").astype(bool),
         sides=tuple(part.sides for part in parts),
+        closure=closure,
     )
+
+
+def _closure(model: Model, chosen: Sequence[int], parts: Sequence[Pairs]) -> PairClosure | None:
+    """The closures of the pairs of contacts, by their numbers; None where none has any."""
+    contacts = [model.contacts[i] for i in chosen]
+    if all(contact.closure is None for contact in contacts):
+        return None
+    compliances = [contact.normal_compliance for contact in contacts]
+    return PairClosure.of([contact.closure for contact in contacts], compliances, [len(part.gap) for part in parts])
 
 
 def _relative_rows(

@@ -45,6 +45,7 @@ class Bodies:
     active, held : (n,) pairs that the law is asked of; pairs that supports hold
     stiffness : (a,) D of the springs that trial forces are made with, in all directions, force per length
     compliance : (d, a) of the interface, length per force
+    rest : (a,) closure that the interface has without force, length, in series as well; None for none
     rigid : (b, k) rigid motions of all parts
     blocks : of the unknowns
     preconditioner : shared by all loads
@@ -67,11 +68,26 @@ class Bodies:
     patience: int = _ENDLESS_PATIENCE
     aim: float = np.inf
     name: str = ITERATIVE
+    rest: Array | None = None
 
     @property
     def directions(self) -> int:
         """Rows a pair, d."""
         return self.blocks.size
+
+    def rested(self, offset: Array) -> Array:
+        """(d, a) Motions of the pairs that loads do not cause, with what the interface has closed without force."""
+        return offset if self.rest is None else np.concatenate([offset[:1] + self.rest, offset[1:]])
+
+    def closing(self, compliance: Array, rest: Array) -> Bodies:
+        """Bodies whose interface closes otherwise along its normals.
+
+        Parameters
+        ----------
+        compliance, rest : (a,) length per force, and what it has closed without force, length
+        """
+        both = np.concatenate([compliance[None], self.compliance[1:]])
+        return replace(self, compliance=both, rest=rest)
 
     def factored(self, nodes: IntArray, points: Array, *, patience: int) -> Bodies:
         """Bodies with factors in place of multigrid: thin bodies and flat cells cost those nothing.
@@ -102,6 +118,7 @@ class Bodies:
             active=self.active & kept,
             stiffness=self.stiffness[own],
             compliance=self.compliance[:, own],
+            rest=None if self.rest is None else self.rest[own],
         )
 
 

@@ -12,6 +12,7 @@ from typing import Any, Literal
 from signorini.arrays import Array
 from signorini.checks import choice, number, text, vector, whole
 from signorini.errors import InputError, Where
+from signorini.law.closure import Closure
 from signorini.law.friction import Coulomb, FrictionLaw
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
@@ -47,6 +48,8 @@ class Contact:
         a crown of depth c(x) that the mesh has not is an interference of -c(x)
     normal_compliance, tangential_compliance : of the interface, length per pressure; 0 (default) is the exact law,
         ``1 / E_n`` and ``1 / E_tau`` the paper's penalties or a physical contact stiffness
+    closure : what lies between the sides, a gasket, a coating or roughness: pressure over closure in place of a
+        ``normal_compliance``; None (default): nothing
     name : what results call it; the nonmortar side by default
     coupling : how the sides see each other. "nodes": node opposite node, for meshes that match; "mortar": integrals
         over both sides, for any meshes; "node-to-segment": nodes on the facets opposite, simple and less accurate;
@@ -89,6 +92,7 @@ class Contact:
     facets: int = 0
     wear: Wear | None = None
     sliding: Literal["small", "finite"] = "small"
+    closure: Closure | None = None
 
     def __post_init__(self) -> None:
         text(self.nonmortar, ("nonmortar",))
@@ -119,6 +123,8 @@ class Contact:
             raise InputError("goes with gap = 'geometry' only", where=("adjust",))
         if self.wear is not None:
             self._check_wear(self.wear)
+        if self.closure is not None:
+            self._check_closure(self.closure)
         if self.sliding == "finite":
             self._check_sliding()
 
@@ -144,6 +150,19 @@ class Contact:
                 "goes by the work of friction, and the contact has none; expected a coefficient",
                 where=("wear", "energy"),
             )
+
+    def _check_closure(self, closure: Closure) -> None:
+        """What lies between sides that neither wear nor slide far, and closes by one law."""
+        if not isinstance(closure, Closure):
+            raise InputError(f"is {closure!r}; expected a Closure", where=("closure",))
+        for found, words in (
+            (self.tied, "the contact is tied"),
+            (self.normal_compliance != 0.0, "normal_compliance too"),
+            (self.wear is not None, "the contact wears"),
+            (self.sliding == "finite", "the sides slide far"),
+        ):
+            if found:
+                raise InputError(f"is given, but {words}; expected one of both", where=("closure",))
 
     def _check_sliding(self) -> None:
         """What goes with sides that slide far: gaps are those of the sides where they are."""
@@ -320,6 +339,11 @@ class Contact:
         """The boundaries of a mesh among its sides, the nonmortar one first; an obstacle is none."""
         sides = (self.nonmortar, self.mortar)
         return tuple(side for side in sides if isinstance(side, str) and side in mesh.boundaries)
+
+    @property
+    def mean_compliance(self) -> float:
+        """Closure per pressure, up to the last point where it has a closure, length per pressure."""
+        return self.normal_compliance if self.closure is None else self.closure.mean_compliance
 
     @property
     def tied(self) -> bool:

@@ -23,6 +23,7 @@ AnyArray = np.ndarray[Any, Any]
 _HOMES = (
     "signorini.attempt",
     "signorini.fatigue.criteria",
+    "signorini.law.closure",
     "signorini.model.body",
     "signorini.model.bolt",
     "signorini.model.conditions",

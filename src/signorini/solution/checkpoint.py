@@ -176,7 +176,8 @@ class Checkpoint(Short):
 
 def _posed(interface: Interface) -> dict[str, NDArray[Any]]:
     """What contacts say of their pairs."""
-    return interface.friction.parameters | {name: getattr(interface, name) for name in _POSED}
+    closure = {} if interface.closure is None else interface.closure.parameters
+    return interface.friction.parameters | closure | {name: getattr(interface, name) for name in _POSED}
 
 
 def _yields(model: Model) -> dict[str, Plastic]:

@@ -186,7 +186,8 @@ class PairEvent:
     load_factor : step k goes from k - 1 to k
     contact : name
     nodes : indices of nonmortar nodes, from 0
-    what : "closes", "opens", "slips", "sticks" or "kinks": slips on, at the shear limit or below it again
+    what : "closes", "opens", "slips", "sticks"; "kinks": slips on, at the shear limit or below it again; "stiffens" or
+        "softens", at a kink of its closure
     """
 
     load_factor: float

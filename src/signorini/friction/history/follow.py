@@ -8,7 +8,7 @@ from collections.abc import Callable
 from signorini.arrays import Array
 from signorini.friction.history.follower import PathFollower, PathSettings
 from signorini.friction.history.plane.follower import PlaneFollower
-from signorini.friction.history.segment import Segment
+from signorini.friction.history.segment import Breakpoint, Segment
 from signorini.friction.history.space.follower import SpaceFollower
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
@@ -22,6 +22,7 @@ def follow(
     *,
     settings: PathSettings | None = None,
     tell: Callable[[float], None] | None = None,
+    leaves: Callable[[Breakpoint], bool] | None = None,
 ) -> Segment:
     """Follow the load from ``start.b`` straight to ``b_end``.
 
@@ -34,6 +35,7 @@ def follow(
     b_end : (d n,) load at the end of the segment
     settings : how the way is gone
     tell : called with the part of the segment that is behind, piece by piece
+    leaves : whether the end of a piece is beyond what the problem holds for: the way ends there, as DISTURBED
 
     Returns
     -------
@@ -77,13 +79,16 @@ def follow(
     """
     walk = follower(problem, start, b_end, settings or PathSettings())
     while True:
-        lost = None
-        while walk.factor < 1.0 and lost is None:
+        lost, left = None, False
+        while walk.factor < 1.0 and lost is None and not left:
             lost = walk.go_on()
+            left = leaves is not None and leaves(walk.pieces[-1])
             if tell is not None:
                 tell(walk.factor)
         if not walk.goes_back():
             break
+    if left:
+        return walk.segment(Outcome.DISTURBED, None, f"left at factor {walk.factor:.12g}")
     if lost is not None:
         return walk.ended(lost)
     return walk.segment(Outcome.FOLLOWED, None, f"followed through {len(walk.events)} events")

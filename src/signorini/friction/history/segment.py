@@ -14,7 +14,7 @@ from signorini.attempt import Spent
 from signorini.friction.history.state import PathState
 from signorini.outcome import Outcome
 
-What = Literal["closes", "opens", "slips", "sticks", "kinks"]
+What = Literal["closes", "opens", "slips", "sticks", "kinks", "stiffens", "softens"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +26,8 @@ class Event:
     factor : part of the segment behind, 0 .. 1
     pairs : their numbers
     what : "closes" (sticking or slipping), "opens", "slips" (from stick, or the other way round), "sticks" (from slip),
-        "kinks" (slips on, on another branch of its bound: it reaches the shear limit or leaves it)
+        "kinks" (slips on, on another branch of its bound: it reaches the shear limit or leaves it), "stiffens",
+        "softens" (comes to a kink of its closure)
     state : the state at this load, with the codes that hold from here on
     """
 
@@ -118,7 +119,7 @@ class Segment:
         return self.outcome == Outcome.FOLLOWED
 
     def until(self, factor: float) -> Segment:
-        """The segment in the plane up to a part of it, 0 < factor <= that of its end: inside a piece all is linear."""
+        """The segment up to a part of it, 0 < factor <= that of its end, where all is linear inside a piece."""
         i = max(1, bisect_left([piece.factor for piece in self.pieces], factor))
         one, two = self.pieces[i - 1], self.pieces[i]
         before, after = one.state, two.state
@@ -129,9 +130,10 @@ class Segment:
         def between(start: Array, end: Array) -> Array:
             return (1.0 - part) * start + part * end
 
-        r, friction, whole = between(one.r, two.r), one.r[1], one.r[1] + two.r[1]
+        r, moved = between(one.r, two.r), two.h[1:] - one.h[1:]
         # friction grows linearly with the slip that it works on
-        spent = part * np.divide(friction + r[1], whole, out=np.zeros_like(whole), where=whole != 0.0)
+        worked, whole = (((one.r + then)[1:] * moved).sum(axis=0) for then in (r, two.r))
+        spent = part * np.divide(worked, whole, out=np.zeros_like(whole), where=whole != 0.0)
         end = replace(
             after,
             b=between(before.b, after.b),
