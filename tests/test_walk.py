@@ -20,6 +20,7 @@ FEATURES = {
     "obstacles that move": ["fem/obstacles", "model/rigid"],
     "bodies that turn": ["fem/turning_bodies", "fem/body_frames", "engine/turning"],
     "contacts that slide far": ["interface/sliding", "engine/sliding", "engine/handing_over"],
+    "closures": ["law/closure", "engine/closure_solver", "engine/closure_paths"],
     "wear": ["interface/worn_sides", "engine/wear_steps", "model/wear", "solution/wear_state"],
     "bodies that yield": ["plasticity", "engine/plastic_solver", "engine/tangent_bodies", "model/plastic"],
     "temperatures": ["fem/thermal"],

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from signorini.verify import (
     bolts,
     bounded,
+    closures,
     cylinder,
     elements,
     fenet,
@@ -93,6 +94,8 @@ QUICK: tuple[Case, ...] = (
     sectors.ring_and_sector,
     vibration.frequencies,
     vibration.bar_in_bed,
+    closures.block_on_a_gasket,
+    closures.rough_interface,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""B18: sides that close on what lies between them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from signorini.api import solve
+from signorini.gallery.closures import GASKET, HEIGHT, MODULUS, block_on_a_bed
+from signorini.law.closure import Closure
+from signorini.model.step import Step
+from signorini.verify.check import Check, checks_of
+
+_ROUGH = 0.01, 2.0  # clearance, length, and pressure where sides touch
+
+
+def block_on_a_gasket() -> Iterator[Check]:
+    """A block on a gasket: its top, where kinks are met, and the energy against the table's own integral."""
+    closures, pressures = np.transpose(GASKET.points)
+    for pressure in (2.5, 6.0, 35.0):
+        step = solve(block_on_a_bed(pressure)).steps[0]
+        slope = (closures[-1] - closures[-2]) / (pressures[-1] - pressures[-2])
+        closed = float(np.interp(pressure, pressures, closures)) + slope * max(0.0, pressure - pressures[-1])
+        at = np.append(pressures[pressures < pressure], pressure)
+        by = np.append(closures[pressures < pressure], closed)
+        energy = 2.0 * float(np.trapezoid(at, by))
+        kinks = [event.load_factor for event in step.events if event.what in ("stiffens", "softens")]
+        yield from checks_of(
+            f"B18 block on a gasket, p {pressure:g}",
+            ("how far its top goes down", -step.displacement[:, 1].min(), closed + pressure * HEIGHT / MODULUS, 1e-12),
+            ("energy of the gasket", step.interface_energy, energy, 1e-12),
+            ("work of the load", step.work, energy + pressure**2 / MODULUS * HEIGHT, 1e-12),
+            ("load of the last kink", kinks[-1] * pressure, pressures[:-1][pressures[:-1] < pressure][-1], 1e-12),
+            source="the table of the gasket",
+        )
+
+
+def rough_interface() -> Iterator[Check]:
+    """A block on roughness of an exponential law: closures of secants, beside the law itself."""
+    clearance, touching = _ROUGH
+    law = Closure.exponential(clearance, touching, tolerance=1e-3)
+    for x in (0.5, 1.0, 3.0):
+        pressure = touching * x * math.expm1(x) / math.expm1(1.0)
+        gap = solve(block_on_a_bed(pressure, law, steps=[Step(increments=1)])).contact("bed").gap
+        yield from checks_of(
+            f"B18 block on roughness, p {pressure:.3g}",
+            ("gap over the clearance, and 1", 1.0 + float(gap.mean()) / clearance, 2.0 - x, 2e-3),
+            source="p = p_0 x (exp x - 1) / (e - 1)",
+        )

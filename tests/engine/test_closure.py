@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sides that close by a law: on every way through a step, in every kind of model, and what the certificate sees."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import signorini as sg
+from signorini.engine.increments import measured
+from signorini.engine.prepare import prepare
+from signorini.gallery.closures import GASKET, block_on_a_bed
+
+CLOSURES, PRESSURES = np.transpose(GASKET.points)
+SLANTED = "1 + 7*x"  # over a width of 2: pairs pass kinks of all kinds, one after the other
+
+PRESS, LET_GO = sg.Step(scale={"p": 1.0}, path="exact"), sg.Step(scale={"p": 0.0}, path="exact")
+
+
+def obeys(contact: sg.Contact) -> None:
+    """Every pair is on the table, or open."""
+    closed = np.interp(contact.pressure, PRESSURES, CLOSURES)
+    assert contact.pressure.max() < PRESSURES[-1]
+    assert_allclose(np.where(contact.pressure > 0, -contact.gap, 0.0), closed, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("kind", ["plane strain", "plane stress", "axisymmetric"])
+def test_a_way_to_a_load_and_back_is_followed_from_kink_to_kink(kind):
+    solution = sg.solve(block_on_a_bed(SLANTED, kind=kind, steps=[PRESS, LET_GO], cells=5))
+    there, back = solution.steps
+    obeys(there.contacts[0])
+    assert not back.contacts[0].pressure.any()
+    kinks = [[e for e in step.events if e.what in ("stiffens", "softens")] for step in (there, back)]
+    assert sum(len(event.nodes) for event in kinks[0]) >= 11
+    # without friction the way back is the way there
+    mirrored = [(2.0 - event.load_factor, sorted(event.nodes)) for event in reversed(kinks[1])]
+    for event, (factor, nodes) in zip(kinks[0], mirrored, strict=True):
+        assert event.load_factor == pytest.approx(factor, abs=1e-10)
+        assert sorted(event.nodes) == nodes
+    assert max(abs(step.energy_defect) for step in solution.steps) < 1e-14 * there.work
+    assert back.work == pytest.approx(-there.work, rel=1e-12)
+    assert back.interface_energy == pytest.approx(0.0, abs=1e-16)
+
+
+def test_friction_and_kinks_on_an_exact_path_and_in_increments():
+    ways = [{"p": 1.0}, {"q": 1.0}, {"q": -1.0}]
+    exact = sg.solve(block_on_a_bed(SLANTED, friction=0.15, steps=[sg.Step(scale=way) for way in ways]))
+    steps = [sg.Step(scale=way, increments=60) for way in ways]
+    fine = sg.solve(block_on_a_bed(SLANTED, friction=0.15, steps=steps))
+    for one, two in zip(exact.steps, fine.steps, strict=True):
+        assert one.path == "exact"
+        assert abs(one.energy_defect) < 1e-14
+        obeys(one.contacts[0])
+        assert_allclose(one.contacts[0].pressure, two.contacts[0].pressure, rtol=0, atol=3e-3)
+        assert_allclose(one.contacts[0].traction, two.contacts[0].traction, rtol=0, atol=3e-3)
+    assert exact.steps[0].dissipation > 1e-4
+
+
+def test_multipliers_answer_the_same():
+    steps = [sg.Step(scale={"p": 1.0}, increments=3), sg.Step(scale={"q": 1.0}, increments=2)]
+    model = block_on_a_bed(SLANTED, friction=0.3, steps=steps, cells=5)
+    for one, two in zip(sg.solve(model).steps, sg.solve(model, backend="iterative").steps, strict=True):
+        assert_allclose(one.contacts[0].pressure, two.contacts[0].pressure, rtol=1e-8)
+    with pytest.raises(sg.InputError, match="an exact path needs the condensed interface"):
+        sg.solve(replace(model, steps=[sg.Step(path="exact")]), backend="iterative")
+
+
+def test_a_joint_of_two_meshes_that_do_not_match():
+    upper = sg.rectangle(width=2.0, height=1.0, nx=5, ny=3)
+    lower = sg.rectangle(width=2.0, height=1.0, nx=8, ny=3, origin=(0, -1))
+    model = sg.Model(
+        sg.join({"upper": upper, "lower": lower}),
+        kind="plane strain",
+        bodies=[sg.Body(name, sg.Elastic(E=1000.0, nu=0.3)) for name in ("upper", "lower")],
+        supports=[sg.Support("lower.bottom", u=(0, 0))],
+        loads=[sg.Load("upper.top", pressure=sg.Formula(SLANTED))],
+        contacts=[sg.Contact("upper.bottom", "lower.top", friction=0.3, closure=GASKET, name="joint")],
+    )
+    step = sg.solve(model).steps[0]
+    assert step.contacts[0].coupling == "mortar"
+    assert {"stiffens", "softens"} <= {event.what for event in step.events}
+    obeys(step.contacts[0])
+    assert abs(step.energy_defect) < 1e-14
+
+
+def cube(facets, steps):
+    """A block in space on a bed."""
+    return sg.Model(
+        sg.box(x=[0, 0.5, 1.0], y=[0, 0.5, 1.0], z=[0, 0.5]),
+        kind="3d",
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+        loads=[
+            sg.Load("top", pressure=sg.Formula("2 + 9*x + 3*y"), name="p"),
+            sg.Load("top", traction=(1.0, 0.3, 0), name="q"),
+        ],
+        contacts=[sg.Contact("bottom", sg.Plane((0, 0, 0), (0, 0, 1)), friction=0.3, facets=facets, closure=GASKET)],
+        steps=steps,
+    )
+
+
+def test_in_space_paths_on_facets_are_exact_and_increments_come_near():
+    exact = sg.solve(cube(8, [sg.Step(scale={"p": 1.0}, path="exact"), sg.Step(scale={"q": 1.0}, path="exact")]))
+    fine = sg.solve(cube(8, [sg.Step(scale={"p": 1.0}, increments=40), sg.Step(scale={"q": 1.0}, increments=40)]))
+    for one, two in zip(exact.steps, fine.steps, strict=True):
+        assert abs(one.energy_defect) < 1e-14
+        assert {event.what for event in one.events} & {"stiffens", "softens"}
+        assert_allclose(one.contacts[0].pressure, two.contacts[0].pressure, rtol=0, atol=5e-3)
+        obeys(one.contacts[0])
+        obeys(two.contacts[0])
+
+
+def test_pairs_that_come_to_a_kink_together_cross_it_together():
+    solution = sg.solve(
+        block_on_a_bed(12.0, friction=0.2, steps=[sg.Step(scale={"p": 1.0, "q": 0.0}), sg.Step(scale={"p": 0.3})])
+    )
+    found = [(round(event.load_factor, 12), event.what, len(event.nodes)) for event in solution.steps[0].events[1:]]
+    assert found == [(round(p / 12, 12), what, 9) for p, what in ((1, "stiffens"), (4, "softens"), (8, "stiffens"))]
+    found = [(round(event.load_factor, 9), event.what, len(event.nodes)) for event in solution.steps[1].events]
+    assert found == [(round(1 + (12 - p) / 8.4, 9), w, 9) for p, w in ((8, "softens"), (4, "stiffens"))]
+
+
+def test_an_overlap_presses_over_kinks_before_the_loads():
+    step = sg.solve(block_on_a_bed(6.0, interference=0.02)).steps[0]
+    assert_allclose(step.contacts[0].pressure, 6.0, rtol=1e-12)
+    assert_allclose(step.contacts[0].gap, -0.0275, rtol=1e-12)
+    assert abs(step.energy_defect) < 1e-14
+
+
+def test_a_history_goes_on_from_a_file_and_not_with_another_closure(tmp_path):
+    steps = [PRESS, replace(PRESS, scale={"q": 1.0}), replace(PRESS, scale={"p": 0.6})]
+    model = block_on_a_bed(SLANTED, friction=0.3, steps=steps)
+    whole = sg.solve(model)
+    part = sg.solve(replace(model, steps=steps[:2]))
+    part.write(tmp_path / "part.h5")
+    part.save_state(tmp_path / "start.npz")
+    assert sg.load(tmp_path / "part.h5").model.contacts[0].closure == GASKET
+    rest = sg.solve(replace(model, steps=steps[2:]), start=tmp_path / "start.npz")
+    assert np.array_equal(rest.steps[0].contacts[0].pressure, whole.steps[2].contacts[0].pressure)
+    assert rest.steps[0].dissipation == whole.steps[2].dissipation
+    other = block_on_a_bed(SLANTED, sg.Closure([*GASKET.points[:-1], (0.05, 30.0)]), friction=0.3, steps=steps[2:])
+    with pytest.raises(sg.InputError, match="the compliance of line 4 of the closure") as caught:
+        sg.solve(other, start=tmp_path / "start.npz")
+    assert "contact 'bed'" in str(caught.value)
+
+
+def test_bodies_that_yield_on_a_bed():
+    model = block_on_a_bed(SLANTED, steps=[sg.Step(scale={"p": 1.0}, increments=4)])
+    soft = sg.Elastic(E=1000.0, nu=0.0, plastic=sg.Plastic(12.0, hardening=100.0))
+    step = sg.solve(replace(model, bodies=[sg.Body("block", soft)])).steps[0]
+    assert step.yielding.share > 0.05
+    obeys(step.contacts[0])
+
+
+def test_the_certificate_asks_the_table():
+    prepared = prepare(block_on_a_bed(SLANTED, steps=[sg.Step(increments=1)]))
+    state = sg.solve(prepared.model).end.state
+    assert measured(prepared, state).passed
+    closure = prepared.interface.closure
+    other = replace(
+        closure, rest=np.where(np.arange(len(closure.rest))[:, None] == 3, closure.rest + 1e-6, closure.rest)
+    )
+    wrong = replace(prepared, interface=replace(prepared.interface, closure=other))
+    found = measured(wrong, state)
+    assert not found.passed
+    assert max(found.penetration, found.complementarity) > 1e-6
