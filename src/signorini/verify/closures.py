@@ -14,7 +14,7 @@ from signorini.law.closure import Closure
 from signorini.model.step import Step
 from signorini.verify.check import Check, checks_of
 
-_ROUGH = 0.01, 2.0  # clearance, length, and pressure where sides touch
+_ROUGHNESS = 0.01, 2.0  # clearance, length, and pressure where sides touch
 
 
 def block_on_a_gasket() -> Iterator[Check]:
@@ -40,7 +40,7 @@ def block_on_a_gasket() -> Iterator[Check]:
 
 def rough_interface() -> Iterator[Check]:
     """A block on roughness of an exponential law: closures of secants, beside the law itself."""
-    clearance, touching = _ROUGH
+    clearance, touching = _ROUGHNESS
     law = Closure.exponential(clearance, touching, tolerance=1e-3)
     for x in (0.5, 1.0, 3.0):
         pressure = touching * x * math.expm1(x) / math.expm1(1.0)
