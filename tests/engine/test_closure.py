@@ -164,3 +164,12 @@ def test_the_certificate_asks_the_table():
     found = measured(wrong, state)
     assert not found.passed
     assert max(found.penetration, found.complementarity) > 1e-6
+
+
+def test_modes_are_those_about_the_lines_of_the_pressures():
+    solution = sg.solve(block_on_a_bed(6.0))
+    lightly = replace(solution.model, bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.0, density=1.0))])
+    at = sg.natural_modes(sg.solve(lightly), 2).frequencies
+    bed = replace(lightly.contacts[0], closure=None, normal_compliance=0.025 / 4.0)
+    line = sg.natural_modes(sg.solve(replace(lightly, contacts=[bed])), 2).frequencies
+    assert_allclose(at, line, rtol=1e-9)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""B18: sides that close on what lies between them."""
+"""B19: sides that close on what lies between them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def block_on_a_gasket() -> Iterator[Check]:
         energy = 2.0 * float(np.trapezoid(at, by))
         kinks = [event.load_factor for event in step.events if event.what in ("stiffens", "softens")]
         yield from checks_of(
-            f"B18 block on a gasket, p {pressure:g}",
+            f"B19 block on a gasket, p {pressure:g}",
             ("how far its top goes down", -step.displacement[:, 1].min(), closed + pressure * HEIGHT / MODULUS, 1e-12),
             ("energy of the gasket", step.interface_energy, energy, 1e-12),
             ("work of the load", step.work, energy + pressure**2 / MODULUS * HEIGHT, 1e-12),
@@ -46,7 +46,7 @@ def rough_interface() -> Iterator[Check]:
         pressure = touching * x * math.expm1(x) / math.expm1(1.0)
         gap = solve(block_on_a_bed(pressure, law, steps=[Step(increments=1)])).contact("bed").gap
         yield from checks_of(
-            f"B18 block on roughness, p {pressure:.3g}",
+            f"B19 block on roughness, p {pressure:.3g}",
             ("gap over the clearance, and 1", 1.0 + float(gap.mean()) / clearance, 2.0 - x, 2e-3),
             source="p = p_0 x (exp x - 1) / (e - 1)",
         )

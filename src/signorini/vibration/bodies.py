@@ -100,7 +100,7 @@ def vibrating_bodies(model: Model, end: Checkpoint | None = None) -> VibratingBo
         B=sp.csr_array(interface.B @ T),
         tied=interface.tied,
         closed=_closed(model, interface, end),
-        compliance=_compliance(model, interface),
+        compliance=_compliance(model, interface, end),
         stretch=_stretch(space, K, mass),
     )
 
@@ -133,10 +133,14 @@ def _closed(model: Model, interface: Interface, end: Checkpoint | None) -> BoolA
     return np.asarray(touching & ~interface.tied)
 
 
-def _compliance(model: Model, interface: Interface) -> Array:
-    """(d, n) As contacts state it, without what makes paths regular in corners that contacts share."""
+def _compliance(model: Model, interface: Interface, end: Checkpoint | None) -> Array:
+    """(d, n) As contacts state it, without what makes paths regular in corners that contacts share; at its pressure."""
     stated = np.array([(c.normal_compliance, c.tangential_compliance) for c in model.contacts], float).reshape(-1, 2)
     own = stated[interface.contact].T / interface.area
+    closure = interface.closure
+    if closure is not None:
+        pressure = np.zeros(len(interface)) if end is None else end.state.forces[0] / interface.area
+        own[0] = closure.of_lines(closure.line(pressure))[0] / interface.area
     own[:, interface.tied] = 0.0  # a tie has none
     return np.concatenate([own, *[own[1:]] * (interface.directions - 2)])
 
