@@ -3,7 +3,7 @@
 
     python -m benchmarks.sliding [--spacing 0.02 0.01 ...] [--page]     (--page writes docs/sliding.md)
 
-Medians of CPU seconds on one thread; a stride pairs in its middle and at its end and condenses once.
+Medians of CPU seconds on one thread; a stride pairs once and condenses once.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def row(name: str, given: sg.Model, away_by: float) -> list[object]:
 
     interface = paired_at(prepared.interface, space, model, constraints, prepared.frames, away)
     whole, pairs, condensing = seconds(solved), seconds(pairing), seconds(lambda: paired(prepared, interface))
-    stride = 2.0 * pairs + condensing
+    stride = pairs + condensing
     sizes = [T.shape[1], len(interface), len(condensed.dofs)]
     return [name, *sizes, f"{whole:.3f}", f"{pairs:.4f}", f"{condensing:.4f}", f"{stride / whole:.2f}"]
 

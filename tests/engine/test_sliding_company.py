@@ -51,7 +51,9 @@ def test_a_tie_beside_it_goes_along() -> None:
     assert resultants(drag) == pytest.approx((1.0, 0.3), rel=2e-3)
     assert drag.certificate.passed
     tie = drag.contacts[1]
-    assert tie.tangential_force[0] == pytest.approx(drag.contacts[0].tangential_force[0] * 1.0, rel=2e-3)
+    assert tie.tangential_force[0] == pytest.approx(-drag.reactions["drag"][0], rel=1e-10)
+    # directions of pairs stand for those of their facets, which the corners of the block bend
+    assert tie.tangential_force[0] == pytest.approx(drag.contacts[0].tangential_force[0], rel=3e-3)
 
 
 @pytest.mark.parametrize(

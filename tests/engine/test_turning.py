@@ -36,7 +36,11 @@ def shrunk_ring(degrees: float, friction: float = 0.3) -> sg.Model:
         contacts=[
             sg.Contact("ring.inner", "shaft.outer", friction=friction, sliding="finite", interference=0.002, name="fit")
         ],
-        steps=[sg.Step(name="press", scale={"turn": 0.0}), sg.Step(name="turn", scale={"turn": 1.0})],
+        steps=[
+            sg.Step(name="press", scale={"turn": 0.0}),
+            sg.Step(name="settle", scale={"turn": 0.05}),  # pairs are those of what pressing has moved
+            sg.Step(name="turn", scale={"turn": 1.0}),
+        ],
     )
 
 
@@ -149,13 +153,13 @@ def test_a_roll_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
 
 
 def test_a_block_slides_off_a_bed_that_is_tilted() -> None:
-    """Where the slope is the coefficient of friction, to a stride; nothing is followed beyond."""
+    """Where the slope is the coefficient of friction, to a stride and its pairs; nothing is followed beyond."""
     with pytest.raises(sg.SolveFailed, match=r"body 'block' can .* away along a rigid motion") as caught:
         sg.solve(block_on_slope(angles=(0.2,), friction=0.15))
     assert caught.value.status == "no_equilibrium"
     step = caught.value.solution.steps[-1]
-    assert step.rigid_bodies["hub"].rotation == pytest.approx(atan(0.15), abs=3e-3)
-    assert step.contacts[0].forces.sum(axis=0) == pytest.approx([0.0, 0.4 * 9.81], rel=5e-3, abs=2e-2)
+    assert step.rigid_bodies["hub"].rotation == pytest.approx(atan(0.15), abs=5e-4)
+    assert step.contacts[0].forces.sum(axis=0) == pytest.approx([0.0, 0.4 * 9.81], rel=5e-3, abs=3e-2)
 
 
 def test_a_disc_that_is_pushed_at_its_hub_rolls() -> None:

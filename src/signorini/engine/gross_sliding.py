@@ -9,10 +9,8 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.engine.recurring_strides import Link, StridePairs, closed_of
-from signorini.engine.sliding import AHEAD
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS
 
-_SET_CHANGES = 8  # of pairs that touch, as sides hand over
 _EVENTS = 100  # of a stride in which all pairs slip, at most: one or two are usual
 _LACKS = 1e-10  # of the length that loads press bodies together by: what closed pairs may be apart by rounding
 _BACK = 1e-9  # of a stride: what a pair may go against the others by rounding
@@ -28,7 +26,7 @@ class Gone:
     pairs : at its end
     gap : (a,) between which they are then
     rubs, distance, travel : (a,) as of `Rubbing`, but normal force times distance, or energy
-    spent, freed : taken by friction, and set free by handing over
+    spent, freed : taken by friction, and set free by the change of pairs
     pivots, residual : states that were tried, and the largest of the certificates
     """
 
@@ -41,6 +39,29 @@ class Gone:
     freed: float
     pivots: int
     residual: float
+
+    def booked(self, link: Link, begin: StridePairs, opened: Array, pressing: Array) -> Gone:
+        """With the work of the change of pairs.
+
+        Parameters
+        ----------
+        link, begin : from the last stride, and its pairs
+        opened, pressing : as of `Link.booked`
+        """
+        taken, freed = link.booked(begin, self.pairs, opened, pressing)
+        track, p = link.next, begin.r[0]
+        f = track.friction
+        pressed = np.divide(taken, f, out=np.zeros_like(taken), where=f > 0.0)
+        slid = np.divide(pressed, p, out=np.zeros_like(taken), where=p > 0.0)
+        return replace(
+            self,
+            pairs=replace(self.pairs, dissipation=self.pairs.dissipation + taken),
+            rubs=self.rubs + track.wearing(pressed, taken),
+            distance=self.distance + slid,
+            travel=self.travel + slid,
+            spent=self.spent + float(taken.sum()),
+            freed=self.freed + freed,
+        )
 
     def and_then(self, other: Gone) -> Gone:
         """One after the other."""
@@ -64,7 +85,7 @@ def slide(link: Link, now: StridePairs, depth: Array, limit: float) -> Gone | No
 
         0 <= p  _|_  (A_n + A_t f) p + g(t) + R_n w >= 0,    R^T (p, f p) = - load(t),
 
-    from t = 0, handed over, to 1, where gaps g are those of the sides there.
+    from t = 0, where it begins, to 1, where gaps g are those of the sides there.
 
     Parameters
     ----------
@@ -90,13 +111,15 @@ class _Slip:
         self.link, self.now, self.track, self.limit, self.code, self.a = link, now, track, limit, code, a
         self.sign = 1.0 if code == SLIP_PLUS else -1.0
         self.moves, _ = track.sliding(self.sign)
-        moved, self.forces = link.seen(now)
-        self.moved = moved + track.prepared.paths.condensed.compliance.ravel() * self.forces.ravel()
-        worn = track.seen @ depth
-        self.gap = track.gaps[1] + worn
-        self.ends = track.free.copy()
-        self.ends[0, :a] += np.where(now.status != OPEN, now.gap - self.moved[:a], track.gaps[0] + worn)
+        self.begin, first, _ = link.begun(now)
+        self.gap = track.gaps[1] + track.seen @ depth
+        self.opened = self.gap - first
+        self.ends, self.resultants = track.free.copy(), track.resultants.copy()
         self.ends[1, :a] += self.gap
+        # whatever fades away, and rigid motions from there on, are in what the beginning is
+        p = now.r[0]
+        self.ends[0] = np.concatenate([now.gap, self.begin.tangential]) - self.moves @ p
+        self.resultants[0] = -(track.sliding(self.sign)[1] @ p)
         self.small = _LACKS * track.prepared.scale.compressed
 
     def solved(self, closed: IntArray, at: int) -> tuple[Array, Array, Array]:
@@ -107,71 +130,29 @@ class _Slip:
         closed : their numbers
         at : which end
         """
-        right = -np.concatenate([self.ends[at, closed], self.track.resultants[at]])
+        right = -np.concatenate([self.ends[at, closed], self.resultants[at]])
         y = self.track.inverse(self.sign, closed) @ right
         p = np.zeros(self.a)
         p[closed] = y[: len(closed)]
         ways = y[len(closed) :]
         return p, self.moves @ p + self.ends[at] + self.track.N @ ways, ways
 
-    def handed(self) -> tuple[IntArray, Array, Array, Array] | None:
-        """Numbers of the pairs that touch once sides have handed over, and the solution there."""
-        closed = closed_of(self.now)
-        for _ in range(_SET_CHANGES):
-            p, h, ways = self.solved(closed, 0)
-            open_ = np.ones(self.a, dtype=np.bool_)
-            open_[closed] = False
-            overlaps = open_ & (h[: self.a] < -self.small)
-            if (p[closed] > 0.0).all() and not overlaps.any():
-                # not farther back than they are led ahead
-                back = (h - self.moved)[self.a :][closed] * self.sign > AHEAD * self.limit
-                return None if back.any() else (closed, p, h, ways)
-            closed = np.flatnonzero(overlaps | ((p > 0.0) & ~open_))
-            if not len(closed):
-                return None
-        return None
-
     def gone(self) -> Gone | None:
-        """Handed over, and followed to the end."""
-        found = self.handed()
-        if found is None:
-            return None
-        (closed, p, h, ways), now, track, a = found, self.now, self.track, self.a
-        way = (h - self.moved)[a:]
-        distance = np.where(now.status != OPEN, -self.sign * way, 0.0)
-        pressed = 0.5 * (self.forces[0] + p) * distance
-        taken = track.friction * pressed
-        pairs = replace(
-            now,
-            r=np.array([p, self.sign * track.friction * p]),
-            ways=ways,
-            tangential=h[a:],
-            slip=now.slip + np.where(p > 0.0, way, 0.0),
-            dissipation=now.dissipation + taken,
-        )
+        """From event to event, through pairs that open and close."""
+        a, closed = self.a, closed_of(self.now)
         gone = Gone(
-            pairs=pairs,
+            pairs=self.begin,
             gap=self.gap,
-            rubs=track.wearing(pressed, taken),
-            distance=distance,
-            travel=np.abs(way),
-            spent=float(taken.sum()),
-            freed=self.link.set_free(now, self.forces, pairs, float(taken.sum())),
+            rubs=np.zeros(a),
+            distance=np.zeros(a),
+            travel=np.zeros(a),
+            spent=0.0,
+            freed=0.0,
             pivots=1,
             residual=0.0,
         )
-        return self.followed(gone, closed, h)
-
-    def followed(self, gone: Gone, closed: IntArray, h: Array) -> Gone | None:
-        """From event to event, through pairs that open and close.
-
-        Parameters
-        ----------
-        gone : as sides have handed over
-        closed, h : pairs that touch, and motions (2 a,)
-        """
-        t, p, a = 0.0, gone.pairs.r[0], self.a
-        begin = p, h
+        t, p, h = 0.0, self.now.r[0], np.concatenate([self.now.gap, self.begin.tangential])
+        begin, pressing = (p, h), np.zeros(a)
         for events in range(_EVENTS):
             p0, h0 = begin if not events else self.solved(closed, 0)[:2]
             p1, h1, ways = self.solved(closed, 1)
@@ -180,16 +161,18 @@ class _Slip:
             low, high = np.where(touches, p0, h0[:a]), np.where(touches, p1, h1[:a])
             falls = (high < np.where(touches, 0.0, -self.small)) & (high < low)
             times = np.divide(low, low - high, out=np.full(a, np.inf), where=falls)
-            k = int(times.argmin())
+            k, last = int(times.argmin()), t
             t = max(t, float(times[k])) if times[k] < 1.0 else 1.0
             new_p, new_h = np.maximum((1.0 - t) * p0 + t * p1, 0.0), (1.0 - t) * h0 + t * h1
             step = (new_h - h)[a:]
             if (step[closed] * self.sign > _BACK * self.limit).any():
                 return None
             gone = self.farther(gone, touches, 0.5 * (p + new_p), step)
+            pressing += 0.5 * (t - last) * (p + new_p)
             p, h = new_p, new_h
             if times[k] >= 1.0:
-                return self.ended(gone, closed, p, h, ways)
+                ended = self.ended(gone, closed, p, h, ways)
+                return None if ended is None else ended.booked(self.link, self.now, self.opened, pressing)
             closed = np.setdiff1d(closed, [k]) if touches[k] else np.union1d(closed, [k])
             if not len(closed):
                 return None

@@ -3,7 +3,8 @@
 
 Positions come back in every cycle, but for what bodies strain; so pairs, B, and the condensed compliance ``B C B^T`` of
 a stride are those of the cycle before, and only gaps change, by what is worn. Between two strides a displacement of
-the bodies is seen by other pairs: ``B u = B C B_last^T r + ...``, a product of matrices of the size of the interface.
+the bodies is seen by other pairs: ``B u = B C B_last^T r + ...``, a product of matrices of the size of the interface,
+and ``(B_last - B)^T r`` fades away, see `engine.handing_over`.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.sliding import Stride
 from signorini.friction.history import PathState
 from signorini.interface.worn_sides import WornSides
-from signorini.law.states import OPEN
+from signorini.law.states import OPEN, STICK
 from signorini.solution.state import LoadPoint
 
 
@@ -187,18 +188,22 @@ class Track:
             dissipation=now.dissipation,
         )
 
-    def state(self, pairs: StridePairs, gap: Array, at: int) -> PathState:
+    def state(self, pairs: StridePairs, gap: Array, at: int, fading: Array | None = None) -> PathState:
         """The state of the path that pairs are in, in the scaled units of the law.
 
         Parameters
         ----------
         pairs : the pairs
         gap, at : as of `pairs`
+        fading : (m,) condensed forces that act beside the loads
         """
         condensed = self.prepared.paths.condensed
+        b = self.loads[at] + condensed.of_gaps(gap)
+        if fading is not None:
+            b = b + condensed.right_hand_side(fading, np.zeros_like(pairs.r))
         h = condensed.root * np.array([pairs.gap, pairs.tangential])
         return PathState(
-            b=self.loads[at] + condensed.of_gaps(gap),
+            b=b,
             h=h,
             r=pairs.r / condensed.root,
             state=pairs.status,
@@ -216,13 +221,13 @@ class Link:
     ----------
     last, next : the strides
     across : (2 a, 2 a) motions of the next one's pairs over forces of the last one's
-    turn : (2, 2, a) from the frames of the last one to those of the next
+    free : (2 a,) motions of the last one's pairs under the loads at the end of the next
     """
 
     last: Track
     next: Track
     across: Array
-    turn: Array
+    free: Array
 
     @staticmethod
     def between(last: Track, track: Track) -> Link | None:
@@ -232,35 +237,38 @@ class Link:
             return None
         assert isinstance(one.response, ByNodes)
         moved = one.response.parts.solve(one.B.T.toarray())
-        interfaces = last.prepared.interface, track.prepared.interface
-        frames = [np.stack([of.normals, of.tangents[:, 0]], axis=1)[one.active] for of in interfaces]
-        return Link(
-            last=last,
-            next=track,
-            across=np.asarray(two.B @ moved),
-            turn=np.einsum("kij,klj->ilk", frames[1], frames[0]),
-        )
+        point = track.points[1]
+        imposed = moved_by_supports(last.prepared, applied(last.prepared, point)[1])[:, one.active]
+        load = one.reduce(free_load(last.prepared, point)).load
+        free = one.response.moved(load) + imposed.ravel()
+        return Link(last=last, next=track, across=np.asarray(two.B @ moved), free=free)
 
-    def seen(self, now: StridePairs) -> tuple[Array, Array]:
-        """(2 a,) motions of the next one's pairs as the bodies are, and (2, a) the forces in their frames."""
+    def begun(self, now: StridePairs) -> tuple[StridePairs, Array, Array]:
+        """The next one's pairs as the bodies are, (a,) between which gaps, and (m,) what fades away, condensed."""
+        a, one, two = len(now.gap), self.last.prepared.paths.condensed, self.next.prepared.paths.condensed
         moved = self.across @ now.r.ravel() + self.next.free[0] + self.next.N @ now.ways
-        return moved, np.einsum("ilk,lk->ik", self.turn, now.r)
+        moved = moved + two.compliance.ravel() * now.r.ravel()
+        fading = np.asarray((one.B - two.B).T @ now.r.ravel())
+        return replace(now, tangential=moved[a:]), now.gap - moved[:a], fading
 
-    def set_free(self, old: StridePairs, turned: Array, new: StridePairs, taken: float) -> float:
-        """Energy that handing over sets free, beyond what friction takes.
+    def booked(self, old: StridePairs, new: StridePairs, opened: Array, pressing: Array) -> tuple[Array, float]:
+        """Of the work of the change of pairs in the next stride (a,) friction's share, and what is set free.
 
         Parameters
         ----------
         old, new : the pairs before, of the last stride, and behind, of the next
-        turned : (2, a) forces before, in the frames of the next
-        taken : by friction
+        opened : (a,) what gaps have grown by in it, length
+        pressing : (a,) normal forces, in the mean of it
         """
-        ways, r0, r1 = new.ways - old.ways, old.r.ravel(), new.r.ravel()
-        own = [track.prepared.paths.condensed.compliance.ravel() for track in (self.last, self.next)]
-        of_next = self.next.X @ r1 - own[1] * r1 - self.across @ r0 + self.next.N @ ways
-        of_last = self.across.T @ r1 - self.last.X @ r0 + own[0] * r0 + self.last.N @ ways
-        soft = 0.5 * float(own[1] @ (r1**2 - turned.ravel() ** 2))
-        return -0.5 * float(of_next @ r1 + of_last @ r0) - taken - soft
+        last, track, r0, r1 = self.last, self.next, old.r.ravel(), new.r.ravel()
+        soft = [of.prepared.paths.condensed.compliance.ravel() for of in (last, track)]
+        by_last = self.across.T @ r1 + self.free + last.N @ new.ways
+        by_last -= last.X @ r0 - soft[0] * r0 + last.free[1] + last.N @ old.ways
+        by_next = track.X @ r1 - soft[1] * r1 + track.free[1] + track.N @ new.ways
+        by_next -= self.across @ r0 + track.free[0] + track.N @ old.ways
+        work = 0.5 * old.r * (by_last - by_next).reshape(old.r.shape)
+        taken = np.where(old.status > STICK, -work[1], 0.0)
+        return taken, float(pressing @ opened - work.sum() - taken.sum())
 
 
 def closed_of(pairs: StridePairs) -> IntArray:

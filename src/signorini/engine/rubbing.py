@@ -15,7 +15,6 @@ from itertools import pairwise
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.engine.prepare import Prepared
 from signorini.engine.solver import CondensedSolver
 from signorini.engine.step_parts import FollowedPart, Snapshot
 from signorini.friction.history import Segment
@@ -92,23 +91,17 @@ def rubbing_of_segment(sides: WornSides, interface: Interface, paths: CondensedS
     return Rubbing(distance=distance, wearing=wearing, travel=travel, volume=sides.volume @ wearing)
 
 
-def handed(prepared: Prepared, normal: Array, moved: Array, taken: Array) -> Rubbing:
-    """Rubbing of pairs that hand over: what friction takes is taken at its bound, so that it is as much in all as rubs.
+def rubbing_of_work(sides: WornSides, interface: Interface, normal: Array, taken: Array) -> Rubbing:
+    """Rubbing of pairs by energy that friction takes at its bound.
 
     Parameters
     ----------
-    prepared : with sides that wear
-    normal : (2, n) normal forces before and behind
-    moved : (d - 1, n) along the tangents, length
-    taken : (n,) energy that friction takes of pairs that slip, 0 of others
+    sides, interface : sides that wear, and the pairs
+    normal, taken : (n,) normal forces, and the energy
     """
-    assert prepared.wearing is not None
-    sides, interface = prepared.wearing, prepared.interface
-    held = interface.most(normal[0]) + interface.most(normal[1])
-    distance = np.divide(2.0 * taken, held, out=np.zeros_like(taken), where=held > 0.0)
-    wearing = np.where(sides.by_energy, taken, normal.mean(axis=0) * distance) / interface.area
-    travel = np.linalg.norm(moved, axis=0)
-    return Rubbing(distance=distance, wearing=wearing, travel=travel, volume=sides.volume @ wearing)
+    distance = np.divide(taken, interface.most(normal), out=np.zeros_like(taken), where=taken != 0.0)
+    wearing = np.where(sides.by_energy, taken, normal * distance) / interface.area
+    return Rubbing(distance=distance, wearing=wearing, travel=distance, volume=sides.volume @ wearing)
 
 
 def rubbed(wear: WearState, rubbing: Rubbing) -> WearState:

@@ -3,10 +3,10 @@
 
 Bodies strain little, so that their compliance does not change while they slide: what changes is B, what is opposite
 what, and from the nodes of both sides, which are kept, the condensed interface follows with no factorisation. Within a
-stride pairs are those of its middle, where the stride before lets expect it, and gaps go linearly from what they are to
-those of the bodies at its end; so a side may be curved, and gaps never jump. Between two strides the sides "hand over":
-stick and slip go on from the displacement of the bodies, and the forces balance with other neighbours. What that moves
-at once is the error of the mesh, and is told.
+stride pairs are those of its end, where the stride before lets expect it, and gaps go linearly from what they are to
+those of the bodies there; so a side may be curved, and gaps never jump. Between two strides the sides "hand over":
+stick and slip go on from the displacement of the bodies, and what the forces of the last pairs are beside those of the
+next fades away, see `engine.handing_over`. So what is found at the end of a stride the next one begins with.
 """
 
 from __future__ import annotations
@@ -18,18 +18,19 @@ from math import ceil
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray
-from signorini.engine.handing_over import hand_over, posed, turned, with_pairs
+from signorini.arrays import Array
+from signorini.engine.handing_over import Handover, supported, with_pairs
+from signorini.engine.increments import applied
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
-from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose
+from signorini.engine.rubbing import rubbed, rubbing_of_states, rubbing_of_work, set_loose
 from signorini.engine.solver import CondensedSolver, ContactSolver
-from signorini.engine.step_parts import FollowedPart, StepPart, ending, joined, keep
+from signorini.engine.step_parts import FollowedPart, StepPart, ending, joined, keep, reached
 from signorini.engine.turning import first_share, refuse_turned, with_turned_loads
-from signorini.errors import InputError, SolveFailed
+from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.boundary import boundary
 from signorini.interface.interface import Interface
-from signorini.interface.sliding import facing, paired_at, sliding_pairs, spun
+from signorini.interface.sliding import facing, paired_at, sliding_pairs
 from signorini.interface.worn_sides import worn_sides
 from signorini.law.states import OPEN
 from signorini.outcome import Outcome
@@ -39,14 +40,12 @@ _STRIDE = 0.25  # of the shortest facet: how far sides slide before pairs are ma
 _BENT = 2e-3  # of forces over the stiffness of the bodies: what gaps may differ in the middle of a stride
 _SHORTEST_MOVE = 0.125  # of a stride: what bodies move at least, however gaps bend
 _TURN = 0.1  # radians: what a body turns by in a stride at most, for loads keep their direction as it sees them
+_BLIND = 0.25  # strides: one with the pairs of its beginning that turns out longer is gone again with those of its end
 _OVER = 1.5  # strides: one that turns out longer is gone again
 _GROWTH = 2.0  # of a stride over the one before it, in load
 _SHORTER = 8.0  # times: a stride that is lost is tried again
 _SHORTEST_SHARE = 1e-6  # of the rest of a part: below it no stride that is lost is tried again
-_SAID_FROM = 1e-12  # of the largest force: what handing over may change and no one need know
-
-AHEAD = 0.1
-"""Of a stride: how far pairs that slip are led on while they hand over, more than that moves them."""
+_SAID_FROM = 1e-12  # of the largest force: what may fade away and no one need know
 
 Follow = Callable[[StepPart], FollowedPart]
 
@@ -76,9 +75,9 @@ class _Pairing:
             raise SolveFailed(words, status=Outcome.NOT_FOUND) from error
         return _Pairing(interface=interface, displacement=displacement)
 
-    def gap_before(self, seen: Interface | None = None) -> Array:
-        """(n,) Gaps before anything moved, as these pairs, or others, see the motion since then."""
-        B = (seen or self.interface).B[: len(self.interface)]
+    def gap_before(self) -> Array:
+        """(n,) Gaps before anything moved, as these pairs see the motion since then."""
+        B = self.interface.B[: len(self.interface)]
         return np.asarray(self.interface.gap - B @ self.displacement)
 
 
@@ -91,19 +90,17 @@ class Stride:
     part : from where the last one ended, as far as it goes
     prepared : with its pairs
     gaps : (2, n) at its ends between sides that are not worn, before anything moved as its pairs see the motion since
-    followed : from the handing over to the end
-    middle : (dofs,) displacement in the middle of it, where it was expected
-    end : pairs at its end, or where that was expected
+    followed : from its beginning to its end
+    end : pairs where its end was expected, which are those of all of it
     moved : (dofs,) displacement in it
     slid : the longest way of a pair that touches, in strides
-    changed : by how much handing over changed the forces, of the largest
+    changed : forces of the last pairs that fade away in it, of the largest force
     """
 
     part: StepPart
     prepared: Prepared
     gaps: Array
     followed: FollowedPart
-    middle: Array
     end: _Pairing
     moved: Array
     slid: float
@@ -150,103 +147,124 @@ class _Walk:
         """(n,) What pairs feel of it there."""
         return 0.0 if prepared.wearing is None else np.asarray(prepared.wearing.gap @ self.depth(t))
 
-    def stride(self, now: StepPart, last: Stride | None, expected: Array) -> Stride:
-        """One stride, with the pairs of its middle as it is expected.
+    def begin(self) -> _Pairing:
+        """The pairs of where the bodies are before the first stride."""
+        part, u = self.part, self.part.before.displacement
+        return _Pairing.at(part, u) if u.any() else _Pairing(interface=part.prepared.interface, displacement=u)
+
+    def stride(self, now: StepPart, last: Stride | None, begin: _Pairing, expected: Array) -> Stride:
+        """One stride, with the pairs of its end as it is expected.
 
         Parameters
         ----------
         now : from where the last one ended
         last : that one; None at the beginning of the part
-        expected : (dofs,) displacement in it
+        begin : the pairs there
+        expected : (dofs,) displacement in it; none where nothing is known of it, and pairs are those of its beginning
         """
         u, interval = now.before.displacement, now.interval
-        middle = _Pairing.at(now, u + 0.5 * expected)
-        end = _Pairing.at(now, u + expected) if expected.any() else middle
-        prepared = with_turned_loads(paired(now.prepared, middle.interface), middle.displacement)
-        seen = self.seen_last(last, middle.displacement)
-        behind, changed = list[FollowedPart](), 0.0
+        end = _Pairing.at(now, u + expected) if expected.any() else begin
+        prepared = with_turned_loads(paired(now.prepared, end.interface), end.displacement)
         begun = self.part.interval.within(interval.low) if interval.high > interval.low else 0.0
         done = self.part.interval.within(interval.high)
-        first = middle.gap_before() + self.beyond(prepared, begun)
-        before = posed(prepared, now.before, seen, first)
-        if before.forces.any():
-            passed = hand_over(prepared, before, now, AHEAD * self.limit)
-            changed = float(np.abs(passed.after.forces - before.forces).max() / np.abs(before.forces).max())
-            behind.append(passed)
-            before = passed.after
-        faces = facing(middle.interface) & facing(end.interface)
-        gap = np.where(faces, end.gap_before(middle.interface), middle.gap_before())
-        gap += self.beyond(prepared, done)
+        beyond = np.array([self.beyond(prepared, t) for t in (begun, done)])
         own = sliding_pairs(prepared.model, prepared.interface)
-        point = replace(now.end, gap=np.where(own, gap, now.end.gap))
-        try:
-            followed = with_pairs(self.follow(replace(now, prepared=prepared, before=before, end=point)), prepared)
-            followed = self.worn(prepared, before, followed)
-        except (SolveFailed, KeyboardInterrupt) as stop:
-            raise keep(stop, behind) from None
-        after = followed.after
-        if not expected.any():
-            end = _Pairing.at(now, after.displacement)
-        touch = facing(end.interface) & own & ((before.status != OPEN) | (after.status != OPEN))
-        begin = middle if last is None or not expected.any() else last.end
-        pressed = max(float(state.forces[0].sum()) for state in (before, after)) / prepared.scale.stiffness
-        bent = np.abs(_bent(begin, middle, end)[touch]).max(initial=0.0) / (_BENT * pressed) if pressed > 0.0 else 0.0
-        moved = after.displacement - u
-        turned_by = prepared.frames.turned(u, after.displacement) / _TURN
-        # gaps of sides with corners jump, and no stride is short enough for that
-        shortened = min(float(bent) ** 0.5, prepared.space.farthest(moved) / (_SHORTEST_MOVE * self.limit))
+        known = facing(begin.interface) | (now.before.status != OPEN)
+        first, gap = end.gap_before() + beyond
+        handover = Handover.to(prepared, now.before, self.loads(last), known, first)
+        before = handover.before
+        point = replace(supported(now.end, len(u)), gap=np.where(own, gap, now.end.gap))
+        followed = self.followed(replace(now, prepared=prepared, before=before, end=point))
+        moved = followed.after.displacement - u
+        if not expected.any() and moved.any():
+            end = _Pairing.at(now, followed.after.displacement)
+        opened = np.where(own & ~self.lost.any(), point.gap - before.point.gap - (beyond[1] - beyond[0]), 0.0)
+        seen_last = begin.interface if last is None else last.prepared.interface
+        taken = handover.friction((seen_last.B - prepared.interface.B) @ moved)
+        walked, followed = followed, handover.booked(followed, opened, taken)
+        followed = ending(followed, replace(followed.after, point=replace(now.end, gap=point.gap)))
+        followed = self.worn(prepared, before, (walked, followed), taken)
+        faces = facing(begin.interface) & facing(end.interface)
+        parted = np.where(faces, ((begin.interface.B - end.interface.B) @ moved)[: len(own)], 0.0)
+        gaps = np.array([before.point.gap, point.gap])
         return Stride(
             part=replace(now, prepared=prepared),
             prepared=prepared,
-            gaps=np.array([first - self.worn_gap(prepared, begun), gap - self.worn_gap(prepared, done)]),
-            followed=joined([*behind, followed]),
-            middle=middle.displacement,
+            gaps=gaps - np.array([self.worn_gap(prepared, t) + np.zeros(len(own)) for t in (begun, done)]),
+            followed=followed,
             end=end,
             moved=moved,
-            slid=max(_slid(prepared, before, after, own) / self.limit, shortened, turned_by),
-            changed=changed,
+            slid=self.slid(prepared, before, followed.after, parted),
+            changed=handover.share,
         )
 
-    def seen_last(self, last: Stride | None, displacement: Array) -> Interface:
-        """Pairs of the last stride, or of the beginning, turned as bodies have turned to a displacement since then."""
-        frames = self.part.prepared.frames
-        if last is None:
-            return spun(self.part.prepared.interface, frames, displacement)
-        return spun(last.prepared.interface, frames, displacement, last.middle)
+    def slid(self, prepared: Prepared, before: State, after: State, parted: Array) -> float:
+        """How long a stride turned out to be, in strides.
+
+        Parameters
+        ----------
+        prepared : with its pairs
+        before, after : states at its ends
+        parted : (n,) by how much less gaps have grown as its pairs see the motion than as the last ones do, length
+        """
+        own, faces = sliding_pairs(prepared.model, prepared.interface), facing(prepared.interface)
+        touch = own & ((before.status != OPEN) | (after.status != OPEN))
+        way = np.linalg.norm(prepared.interface.motion(after.displacement - before.displacement)[1:], axis=0)
+        moved = float(way[touch if touch.any() else own].max(initial=0.0)) / self.limit
+        # half of what rates differ by at the ends is what the gap in the middle is beside the mean, four times
+        bent = 0.125 * float(np.abs(parted[touch & faces]).max(initial=0.0))
+        pressed = max(float(state.forces[0].sum()) for state in (before, after)) / prepared.scale.stiffness
+        bent = (bent / (_BENT * pressed)) ** 0.5 if pressed > 0.0 else 0.0
+        # gaps of sides with corners jump, and no stride is short enough for that
+        farthest = prepared.space.farthest(after.displacement - before.displacement)
+        bent = min(bent, farthest / (_SHORTEST_MOVE * self.limit))
+        return max(moved, bent, prepared.frames.turned(before.displacement, after.displacement) / _TURN)
+
+    def loads(self, last: Stride | None) -> Array:
+        """(dofs,) Loads as bodies have seen them so far."""
+        part = self.part
+        if last is not None:
+            return applied(last.prepared, last.followed.after.point)[0]
+        return applied(with_turned_loads(part.prepared, part.before.displacement), part.before.point)[0]
 
     def arrived(self, last: Stride) -> Stride:
         """The end of the part with the pairs, and the loads, of where bodies are that have turned."""
         part, state = self.part, last.followed.after
         at_end = replace(part, interval=replace(part.interval, low=part.interval.high), before=state)
         place = _Pairing.at(at_end, state.displacement)
-        prepared = with_turned_loads(paired(part.prepared, place.interface), state.displacement)
-        gap = place.gap_before() + self.beyond(prepared, 1.0)
-        before = posed(prepared, state, self.seen_last(last, state.displacement), gap)
-        followed = hand_over(prepared, before, at_end, AHEAD * self.limit)
-        return replace(last, followed=followed, prepared=prepared, middle=state.displacement)
+        return self.stride(at_end, last, place, np.zeros_like(state.displacement))
 
-    def worn(self, prepared: Prepared, before: State, followed: FollowedPart) -> FollowedPart:
-        """A stride with what it has rubbed off the sides, and what gaps that grow by wear alone have set free."""
+    def worn(
+        self, prepared: Prepared, before: State, found: tuple[FollowedPart, FollowedPart], taken: Array
+    ) -> FollowedPart:
+        """A stride with what it has rubbed off the sides, and what gaps that grow by wear alone have set free.
+
+        Parameters
+        ----------
+        prepared : with its pairs
+        before : its first state
+        found : the stride as it was followed, and with the work of the change of its pairs
+        taken : (n,) of its friction what is beyond that, see `Handover.friction`
+        """
+        followed, booked = found
         if prepared.wearing is None:
-            return followed
+            return booked
         if self.lost.any():
-            followed = set_loose(before, followed)
+            booked = set_loose(before, booked)
+        sides, interface = prepared.wearing, prepared.interface
         states = [before, *(shot.state for shot in followed.snapshots)]
-        rubbing = rubbing_of_states(prepared.wearing, prepared.interface, states)
-        return ending(followed, replace(followed.after, wear=rubbed(wear_of(followed.after), rubbing)))
+        rubbing = rubbing_of_states(sides, interface, states)
+        rubbing = rubbing.and_then(rubbing_of_work(sides, interface, before.forces[0], taken))
+        return ending(booked, replace(booked.after, wear=rubbed(wear_of(booked.after), rubbing)))
 
-
-def _bent(begin: _Pairing, middle: _Pairing, end: _Pairing) -> Array:
-    """(n,) What gaps in the middle of a stride are beside the mean of those at its ends, length; 0 where not all face.
-
-    Where pairs of the beginning were taken, as ``middle`` too, it is a quarter of what gaps at the end are beside them.
-    """
-    seen, known = middle.interface, facing(begin.interface) & facing(middle.interface) & facing(end.interface)
-    if begin is middle:
-        bent = 0.25 * (end.gap_before(seen) - middle.gap_before())
-    else:
-        bent = middle.gap_before() - 0.5 * (begin.gap_before(seen) + end.gap_before(seen))
-    return np.where(known, bent, 0.0)
+    def followed(self, part: StepPart) -> FollowedPart:
+        """A stride, with its pairs as far as it goes."""
+        try:
+            return with_pairs(self.follow(part), part.prepared)
+        except (SolveFailed, Interrupted) as stop:
+            found = reached(stop)
+            stop.reached = None if found is None else with_pairs(found, part.prepared)
+            raise
 
 
 def follow_sliding(
@@ -272,27 +290,28 @@ def follow_sliding(
     behind: list[Stride] = [] if strides is None else strides
     first = len(behind)
     rest, share = part, first_share(part.prepared, part.before.point, part.end, walk.limit)
-    rate = np.zeros(len(part.before.displacement))
+    rate, begin = np.zeros(len(part.before.displacement)), walk.begin()
     while True:
         now = rest if share >= 1.0 else rest.cut(share, "handover")
         length = now.interval.high - now.interval.low
         try:
-            stride = walk.stride(now, behind[-1] if behind[first:] else None, length * rate)
+            stride = walk.stride(now, behind[-1] if behind[first:] else None, begin, length * rate)
         except (SolveFailed, KeyboardInterrupt) as stop:
             again = isinstance(stop, SolveFailed) and stop.status in (Outcome.NOT_FOUND, Outcome.JUMP)
             if not again or share < _SHORTEST_SHARE:
                 raise keep(stop, [done.followed for done in behind[first:]]) from None
             share /= _SHORTER
             continue
-        rate = stride.moved / (length or 1.0)
-        if stride.slid > _OVER:
+        blind, rate = not rate.any(), stride.moved / (length or 1.0)
+        if stride.slid > (_BLIND if blind else _OVER):
             share /= ceil(stride.slid)
             continue
         behind.append(stride)
+        begin = stride.end
         if not part.prepared.model.axisymmetric:
             _refuse_turned(part, behind[first:])
         if now is rest:
-            end = [walk.arrived(stride)] if part.prepared.frames else []
+            end = [walk.arrived(stride)] if part.prepared.turns else []
             return _finished(part, [*behind[first:], *end])
         rest = rest.rest(now, stride.followed.after)
         wanted = length * min(_GROWTH, 1.0 / max(stride.slid, 1.0 / _GROWTH))
@@ -310,16 +329,17 @@ def _refuse_turned(part: StepPart, strides: list[Stride]) -> None:
 def _finished(part: StepPart, strides: list[Stride]) -> FollowedPart:
     """All strides as one; the state at the end refers to the pairs before anything moved, as that before does."""
     followed, changed = joined([stride.followed for stride in strides]), max(stride.changed for stride in strides)
-    nominal, frames, last = part.prepared.interface, part.prepared.frames, strides[-1]
-    own = sliding_pairs(part.prepared.model, nominal)
-    back = spun(last.prepared.interface, frames, np.zeros_like(last.middle), last.middle)
-    forces = np.where(own, turned(followed.after.forces, back, nominal), followed.after.forces)
-    after = replace(followed.after, point=replace(followed.after.point, gap=part.end.gap), forces=forces)
+    after = replace(followed.after, point=replace(followed.after.point, gap=part.end.gap))
     notes = followed.notes
     if changed > _SAID_FROM:
-        words = f"pairs followed the bodies in {len(strides)} strides; handing over changed forces by {changed:.1e}"
-        notes = (*notes, f"{words} of the largest at most")
-    return replace(followed, after=after, notes=notes, turned_at=last.middle if frames else np.zeros(0))
+        words = f"pairs followed the bodies in {len(strides)} strides; what fades away at a node as they hand over"
+        notes = (*notes, f"{words} is up to {changed:.1e} of the largest force of a pair")
+    return replace(
+        followed,
+        after=after,
+        notes=notes,
+        turned_at=strides[-1].end.displacement if part.prepared.frames else np.zeros(0),
+    )
 
 
 def paired(prepared: Prepared, interface: Interface) -> Prepared:
@@ -339,13 +359,6 @@ def paired(prepared: Prepared, interface: Interface) -> Prepared:
         solver = prepared.solver.paired(solver, interface)
     wearing = None if prepared.wearing is None else worn_sides(prepared.space, prepared.model, interface)
     return replace(prepared, interface=interface, solver=solver, wearing=wearing)
-
-
-def _slid(prepared: Prepared, begin: State, end: State, own: BoolArray) -> float:
-    """The longest way, length, of sliding pairs that touch at the beginning or the end; of all where none does."""
-    way = np.linalg.norm(prepared.interface.motion(end.displacement - begin.displacement)[1:], axis=0)
-    touch = own & ((begin.status != OPEN) | (end.status != OPEN))
-    return float(way[touch if touch.any() else own].max(initial=0.0))
 
 
 def stride_of(prepared: Prepared) -> float:

@@ -15,17 +15,15 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.engine.gross_sliding import Gone, slide
-from signorini.engine.handing_over import turned
 from signorini.engine.path_states import balanced, path_state, recovered
 from signorini.engine.prepare import Prepared
 from signorini.engine.recurring_strides import Link, StridePairs, Track
 from signorini.engine.rubbing import Rubbing, rubbed, rubbing_of_segment
-from signorini.engine.sliding import AHEAD, Stride, stride_of
+from signorini.engine.sliding import Stride, stride_of
 from signorini.engine.wear_paths import FollowedCycle, PathCycle
 from signorini.friction.history import PathSettings, Segment
-from signorini.friction.solve import solve_contact
 from signorini.interface.worn_sides import WornSides
-from signorini.law.states import OPEN, STICK
+from signorini.law.states import OPEN
 from signorini.solution.state import LoadPoint, State, wear_of
 from signorini.solution.wear_state import WearState
 
@@ -39,7 +37,7 @@ class StrideCycle(PathCycle):
     Attributes
     ----------
     gap : (a,) between which these pairs are, before anything moved, length
-    handed : energy set free as sides hand over to other pairs
+    handed : energy set free by the change of pairs
     """
 
     gap: Array
@@ -110,8 +108,7 @@ class SlidingCycles:
         """A whole state on the path: behind what its sides have lost."""
         home, wear = self._home, wear_of(state)
         gap = home.gaps[1] + home.seen @ wear.depth
-        forces = turned(state.forces, self._nominal.interface, self.prepared.interface)
-        now = path_state(self.prepared, replace(state, point=_between_worn(home, wear.depth), forces=forces))
+        now = path_state(self.prepared, replace(state, point=_between_worn(home, wear.depth)))
         return StrideCycle(now=now, wear=wear, gap=gap)
 
     def cycle(self, at: PathCycle, number: int) -> FollowedCycle | None:  # noqa: ARG002
@@ -121,9 +118,9 @@ class SlidingCycles:
         pairs, total, volume = self._home.pairs(at.now, at.gap, 1), None, np.zeros(len(self.sides))
         self.followed, self._lost, strides = self.followed + 1, False, list[tuple[Track, Gone]]()
         for link in self._links:
-            ends = link.next is not self._home
-            gone = self._stride(link, pairs, at.wear.depth, goes=ends)
-            self._lost = gone is not None and ends and self._drifted(link.next, gone.pairs)
+            gone = self._stride(link, pairs, at.wear.depth)
+            home = link.next is self._home
+            self._lost = gone is not None and not home and self._drifted(link.next, gone.pairs)
             if gone is None or self._lost:
                 return None
             pairs = gone.pairs
@@ -185,9 +182,8 @@ class SlidingCycles:
         here = recovered(self.prepared, last, _between_worn(self._home, at.wear.depth), at.now)
         here = replace(here, released=last.released + at.energy + at.handed)
         here = balanced(self.prepared, last, here, at.spent)
-        forces = turned(here.forces, self.prepared.interface, self._nominal.interface)
         energy = wear_of(last).energy + at.energy
-        return replace(here, point=point, forces=forces, wear=replace(at.wear, energy=energy))
+        return replace(here, point=point, wear=replace(at.wear, energy=energy))
 
     def _of_gaps(self, track: Track, gap: Array) -> Array:
         return track.prepared.paths.condensed.of_gaps(gap)
@@ -196,75 +192,25 @@ class SlidingCycles:
         touch = pairs.status != OPEN
         return bool(np.abs(pairs.tangential - track.tangential)[touch].max(initial=0.0) > _DRIFT * self._limit)
 
-    def _stride(self, link: Link, pairs: StridePairs, depth: Array, *, goes: bool) -> Gone | None:
-        """Hand over, and go to the end of the stride; ``goes``: not only hand over."""
-        if goes:
-            gone = slide(link, pairs, depth, self._limit)
-            if gone is not None:
-                return gone
-        handed = self._handed(link, pairs, depth)
-        return self._followed(link.next, handed, depth) if goes and handed is not None else handed
+    def _stride(self, link: Link, pairs: StridePairs, depth: Array) -> Gone | None:
+        """To the end of a stride; None where no path leads there."""
+        return slide(link, pairs, depth, self._limit) or self._followed(link, pairs, depth)
 
-    def _handed(self, link: Link, pairs: StridePairs, depth: Array) -> Gone | None:
-        """Hand over as `engine.handing_over` does; None where no equilibrium is found."""
+    def _followed(self, link: Link, pairs: StridePairs, depth: Array) -> Gone | None:
+        """The exact path of the law through a stride."""
         track = link.next
-        paths, condensed = track.prepared.paths, track.prepared.paths.condensed
-        a, root, law = len(pairs.gap), condensed.root, paths.law
-        moved, forces = link.seen(pairs)
-        moved = moved + condensed.compliance.ravel() * forces.ravel()
-        worn = track.seen @ depth
-        touch, drags = pairs.status != OPEN, pairs.status > STICK
-        gap = np.where(touch, pairs.gap - moved[:a], track.gaps[0] + worn)
-        led = moved[a:] + np.where(drags, AHEAD * self._limit * np.sign(forces[1]), 0.0)
-        offset = np.concatenate([root * gap, -root * led])
-        b = track.loads[0] + condensed.image.load(offset, np.zeros(condensed.image.R.shape[1]))
-        start = law.pieces.coded(pairs.status, forces[0] / root)
-        result = solve_contact(replace(law, b=b), start, settings=paths.settings)
-        if not result.solved:
-            return None
-        r, h = result.r * root, result.h / root
-        idle = (result.state != OPEN) & (r[0] <= 1e-12 * track.prepared.scale.force)
-        r, status = np.where(idle, 0.0, r), np.where(idle, OPEN, result.state)
-        tangential = led + h[1]
-        slipped = np.where(status == OPEN, 0.0, tangential - moved[a:])
-        taken = np.where(drags, -0.5 * (forces[1] + r[1]) * (tangential - moved[a:]), 0.0)
-        bare = replace(
-            pairs,
-            r=r,
-            gap=h[0],
-            tangential=tangential,
-            slip=pairs.slip + slipped,
-            status=status,
-            dissipation=pairs.dissipation + taken,
-        )
-        state = track.state(bare, gap, 0)
-        handed = track.pairs(state, gap, 0)
-        freed = link.set_free(pairs, forces, handed, float(taken.sum()))
-        mean = 0.5 * (track.friction * (forces[0] + r[0]))
-        distance = np.divide(taken, mean, out=np.zeros(a), where=mean > 0.0)
-        rubs = track.wearing(0.5 * (forces[0] + r[0]) * distance, taken)
-        return Gone(
-            pairs=handed,
-            gap=gap,
-            rubs=rubs,
-            distance=distance,
-            travel=np.abs(tangential - moved[a:]),
-            spent=float(taken.sum()),
-            freed=freed,
-            pivots=1,
-            residual=0.0,
-        )
-
-    def _followed(self, track: Track, begin: Gone, depth: Array) -> Gone | None:
-        """The exact path of the law, from the handing over to the end of a stride."""
         paths, own = track.prepared.paths, track.prepared.paths.active
+        begin, first, fading = link.begun(pairs)
         end: Array = track.gaps[1] + track.seen @ depth
-        state = track.state(begin.pairs, begin.gap, 0)
-        segment = paths.follow(state, track.loads[1] + self._of_gaps(track, end), None, lambda _: None)
+        segment = paths.follow(
+            track.state(begin, first, 0, fading), track.loads[1] + self._of_gaps(track, end), None, lambda _: None
+        )
         if not segment.followed:
             return None
         rubbing = rubbing_of_segment(track.sides, track.prepared.interface, paths, segment)
-        followed = Gone(
+        forces = np.array([piece.r[0] for piece in segment.pieces]) * paths.condensed.root
+        parts = np.diff([piece.factor for piece in segment.pieces])
+        gone = Gone(
             pairs=track.pairs(segment.end, end, 1),
             gap=end,
             rubs=(rubbing.wearing * track.prepared.interface.area)[own],
@@ -275,7 +221,7 @@ class SlidingCycles:
             pivots=segment.pivots,
             residual=segment.residual,
         )
-        return begin.and_then(followed)
+        return gone.booked(link, pairs, end - first, parts @ (0.5 * (forces[1:] + forces[:-1])))
 
 
 def _between_worn(track: Track, depth: Array) -> LoadPoint:

@@ -64,7 +64,8 @@ def test_bodies_that_slide_and_turn_are_where_calculix_has_them(tmp_path: Path, 
     step = sg.solve(sg.read(path)).steps[-1]
     assert np.abs(step.displacement[:NODES] - printed).max() < largest * np.abs(printed).max()
     assert np.abs(step.displacement[25:50] - printed[25:50]).max() < beneath * np.abs(printed[25:50]).max()
-    assert abs(step.energy_defect) < 1e-7 * abs(step.work)
+    # pairs begin to slip within increments, which need be no shorter than a quarter of a stride
+    assert abs(step.energy_defect) < 1e-4 * abs(step.work)
 
 
 def test_a_rigid_head_turns_by_its_finite_angle(tmp_path: Path) -> None:
