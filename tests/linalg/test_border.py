@@ -6,8 +6,8 @@ import pytest
 from scipy import sparse
 
 from signorini.linalg import BACKENDS, NotPositiveDefinite, factorise
-from signorini.linalg.border import bordered
 from signorini.linalg.registry import BORDERED, takes_borders
+from signorini.linalg.system import bordered
 from tests.helpers.lattices import lattice, together
 
 BODIES = together(lattice((9, 7)), lattice((5, 4, 4)))

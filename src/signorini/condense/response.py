@@ -27,10 +27,10 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.condense.body_blocks import BodyBlocks
 from signorini.interface.active import FreeBodies
-from signorini.linalg.border import bordered
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
+from signorini.linalg.system import bordered
 
 Travel = Callable[[Array], Array]
 """Rigid motion (k,) beyond given relative displacements (d a,) of the pairs."""

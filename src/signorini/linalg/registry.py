@@ -26,7 +26,7 @@ AUTOMATIC = "multifrontal"
 (`benchmarks/linalg.py`), and it needs nothing that has to be installed apart."""
 
 BORDERED = frozenset({"multifrontal"})
-"""Back ends whose interface may be a border, rows without stiffness of their own: `signorini.linalg.border`. Others
+"""Back ends whose interface may be a border, rows without stiffness of their own: `linalg.system.bordered`. Others
 factorise a matrix with the interface in it and have to lift it."""
 
 

@@ -162,3 +162,22 @@ def node_graph(system: System) -> NodeGraph:
     interior = int(np.searchsorted(start, system.n - system.m))
     points = None if system.points is None else system.points[system.nodes[member[start[:-1]]]]
     return NodeGraph(start=start, member=member, interior=interior, edges=edges, points=points)
+
+
+def bordered(K: sparse.csr_array, B: sparse.csr_array) -> sparse.csr_array:
+    """``[[K, B^T], [B, 0]]``, (n + m, n + m); with the border as its interface it condenses to ``-B K^-1 B^T``.
+
+    Parameters
+    ----------
+    K : (n, n)
+    B : (m, n)
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> K, B = sparse.csr_array(np.diag([2.0, 4.0])), sparse.csr_array(np.array([[1.0, -1.0]]))
+    >>> bordered(K, B).toarray().tolist()
+    [[2.0, 0.0, 1.0], [0.0, 4.0, -1.0], [1.0, -1.0, 0.0]]
+    """
+    none = sparse.csr_array((B.shape[0], B.shape[0]))
+    return sparse.csr_array(sparse.block_array([[K, sparse.csr_array(B.T)], [B, none]], format="csr"))
