@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.clock import Clock
-from signorini.engine.fatigue import assess_fatigue, probe_of
+from signorini.engine.fatigue import assess_fatigue
+from signorini.engine.fatigue_places import probe_of
 from signorini.engine.solve import raise_failure
 from signorini.engine.solve import solve as solve_history
 from signorini.engine.stress_history import stress_history

@@ -128,7 +128,7 @@ def yielding_bar(**step):
 
 
 def test_bodies_that_yield_need_their_displacements():
-    with pytest.raises(sg.InputError, match='depend on plastic flow; expected at = "events"'):
+    with pytest.raises(sg.InputError, match='depend on plastic flow; expected at = "events" in the step'):
         sg.solve(yielding_bar()).stress_history("block")
     history = sg.solve(yielding_bar(at="events")).stress_history("block")
     np.testing.assert_allclose(history.stress[0, -1, 0], 5.0)

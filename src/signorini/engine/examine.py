@@ -12,6 +12,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array
 from signorini.engine.bolts import with_bolts
 from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
+from signorini.engine.fatigue_places import refuse_requests
 from signorini.errors import InputError
 from signorini.fem.body_frames import BodyFrames
 from signorini.fem.cyclic import refuse_contact_across
@@ -113,6 +114,8 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     if model.yields and examined.turns:
         _refuse_sliding(model)
     _refuse_unheld(examined, schedule)
+    if model.fatigue:
+        refuse_requests(space, model, goes_on=start is not None and bool(start.state.forces.any()))
     return examined
 
 

@@ -4,45 +4,38 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
-from signorini.engine.places_of_names import named_places
+from signorini.engine.fatigue_places import moduli, named_places, request_places
 from signorini.engine.stress_history import Span, spans, stress_history
 from signorini.errors import InputError
-from signorini.fatigue.criteria import SWT, Ruiz, StrainLife
+from signorini.fatigue.criteria import Ruiz, StrainLife
 from signorini.fatigue.damage import Damage, cycles_to_failure, damage, path_amplitudes
 from signorini.fem.probe import StressProbe
 from signorini.fem.space import Space, make_space
 from signorini.model.fatigue import Fatigue
-from signorini.model.material import Elastic
 from signorini.model.model import Model
 from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
 from signorini.solution.stress_history import StressHistory
 
-_LINE_POINTS = 16  # of a mean over a line: stresses are piecewise smooth over the cells that it crosses
 
-
-def asked_fatigue(history: History) -> tuple[FatigueResult, ...]:
-    """What the criteria say that a model asks for.
-
-    Raises
-    ------
-    InputError
-        As `assess_fatigue`, with the number of the criterion.
-    """
+def with_fatigue(history: History) -> History:
+    """A history with what the criteria say that its model asks for; a note where one cannot be answered."""
     model = history.model
     space = make_space(model.mesh, axisymmetric=model.axisymmetric)
-    found = []
+    found, notes = [], []
     for i, request in enumerate(model.fatigue):
         try:
             found.append(assess_fatigue(history, request, space))
-        except InputError as error:
-            raise error.inside("fatigue", i) from error
-    return tuple(found)
+        except InputError as error:  # what was solved is worth more than what is not known of it
+            notes.append(str(error.inside("fatigue", i)))
+    last = replace(history.last, notes=(*history.last.notes, *notes))
+    return replace(history, steps=(*history.steps[:-1], last), fatigue_results=tuple(found))
 
 
 def assess_fatigue(history: History, request: Fatigue, space: Space | None = None) -> FatigueResult:
@@ -65,13 +58,11 @@ def assess_fatigue(history: History, request: Fatigue, space: Space | None = Non
     if isinstance(request.criterion, Ruiz):
         probe, points, tangents = _on_contacts(space, model, request, history)
         along = stress_history(history, probe, points, steps=steps)
+        node = along.node
         found = _ruiz(history, request, along, tangents)
     else:
-        places = named_places(space, model, request.where)
-        points = model.mesh.points[places.nodes[:, 1]]
-        probe = StressProbe.at_nodes(space, model, places.nodes)
-        if request.distance:
-            probe = _below(space, model, points, places.inward, probe.body, request)
+        places = request_places(space, model, request)
+        probe, points, node = places.probe, places.points, places.node
         along = stress_history(history, probe, points, steps=steps)
         found = damage(request.criterion, along.stress, along.strain)
     looked_at = spans(history, steps)
@@ -81,7 +72,7 @@ def assess_fatigue(history: History, request: Fatigue, space: Space | None = Non
         moments=len(along.load_factor),
         exact=along.exact,
         body=np.array(along.bodies),
-        node=frozen(along.node if not request.distance else places.nodes[:, 1], np.int64),
+        node=frozen(node, np.int64),
         points=frozen(points),
         parameter=frozen(found.parameter),
         amplitude=frozen(found.amplitude),
@@ -89,37 +80,6 @@ def assess_fatigue(history: History, request: Fatigue, space: Space | None = Non
         plane=frozen(found.plane),
         life=frozen(_lives(model, request, found.parameter, probe.body)),
     )
-
-
-def probe_of(
-    space: Space, model: Model, where: Sequence[str], points: Array | None, body: int
-) -> tuple[StressProbe, Array]:
-    """Places by names, or points of one body; and where they are, (p, d).
-
-    Parameters
-    ----------
-    space, model : of the bodies
-    where : see `named_places`
-    points : (p, d) undeformed coordinates, length, instead of names
-    body : index of the body that they are in
-    """
-    if points is None:
-        nodes = named_places(space, model, where).nodes
-        return StressProbe.at_nodes(space, model, nodes), model.mesh.points[nodes[:, 1]]
-    return StressProbe.at_points(space, model, points[:, None], np.full(len(points), body)), points
-
-
-def _below(space: Space, model: Model, points: Array, inward: Array, body: IntArray, request: Fatigue) -> StressProbe:
-    """Places at the critical distance below others."""
-    if np.isnan(inward).any():
-        raise InputError("goes along normals; expected boundaries and contacts in 'where'", where=("distance",))
-    L = request.distance
-    depths = [0.5 * L] if request.average == "point" else 2.0 * L * (np.arange(_LINE_POINTS) + 0.5) / _LINE_POINTS
-    lines = points[:, None] + np.asarray(depths)[:, None] * inward[:, None]
-    try:
-        return StressProbe.at_points(space, model, lines, body)
-    except InputError as error:
-        raise InputError(f"leaves the body: {error.message}; expected a shorter one", where=("distance",)) from error
 
 
 def _on_contacts(
@@ -192,11 +152,4 @@ def _lives(model: Model, request: Fatigue, parameter: Array, body: IntArray) -> 
     criterion = request.criterion
     if not isinstance(criterion, StrainLife) or not criterion.lives:
         return np.full(len(parameter), np.nan)
-    moduli = np.zeros(len(model.bodies))
-    for i in np.unique(body):
-        material = model.bodies[i].material
-        if not isinstance(material, Elastic):
-            words = f"has constants of a life, and '{model.bodies[i].name}' is not isotropic; expected none"
-            raise InputError(words, where=("criterion",))
-        moduli[i] = material.E if isinstance(criterion, SWT) else material.shear_modulus
-    return cycles_to_failure(criterion, parameter, moduli[body])
+    return cycles_to_failure(criterion, parameter, moduli(model, criterion, body))

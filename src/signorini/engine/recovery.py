@@ -10,7 +10,7 @@ motion, which strains nothing.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -19,13 +19,13 @@ import scipy.sparse as sp
 from signorini.arrays import Array
 from signorini.condense.response import held_by_springs
 from signorini.engine.examine import Examined, examine
+from signorini.engine.fatigue_places import refuse_unrecoverable
 from signorini.errors import InputError
 from signorini.fem.rigid import free_motions
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.linalg.protocol import Factorisation
 from signorini.linalg.registry import factorise
 from signorini.linalg.threads import one_thread
-from signorini.model.model import Model
 from signorini.solution.history import History
 from signorini.solution.results import Instant, StepResult
 
@@ -59,8 +59,9 @@ class Recovery:
             If displacements of the model do not follow from the forces of its contacts alone.
         """
         model = history.model
-        _refuse(model)
-        examined = examine(model, start=history.end)  # loads that its steps do not name may come from one before it
+        refuse_unrecoverable(model)
+        # loads that its steps do not name may come from one before it
+        examined = examine(replace(model, fatigue=()), start=history.end)
         constraints, T = examined.constraints, examined.constraints.transform
         K = stiffness(examined.space, model)
         for springs in constraints.springs.values():
@@ -127,26 +128,3 @@ class Recovery:
         forces = self.K @ found
         size = max(float(np.abs(forces).max(initial=0.0)), float(np.abs(self._loads(end)).max(initial=0.0)))
         return bool(np.abs(self.K @ kept - forces).max(initial=0.0) <= _AGREEMENT_TOL * size)
-
-
-def _refuse(model: Model) -> None:
-    """Refuse models whose displacements depend on more than loads and forces of the contacts.
-
-    Raises
-    ------
-    InputError
-        With what they depend on.
-    """
-    changes = any(step.release or step.hold or step.restore for step in model.steps)
-    why = {
-        "plastic flow": model.yields,
-        "pairs that follow the bodies": model.slides,
-        "bolts": bool(model.bolts),
-        "supports that let go or hold again": changes,
-    }
-    for words, has in why.items():
-        if has:
-            raise InputError(
-                f'the displacements on the way depend on {words}; expected at = "events", which keeps them',
-                where=("step",),
-            )

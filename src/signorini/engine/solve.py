@@ -12,7 +12,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.clock import Clock
 from signorini.engine.contact_changes import pressed_gap, relaxed, staged, switched
-from signorini.engine.fatigue import asked_fatigue
+from signorini.engine.fatigue import with_fatigue
 from signorini.engine.increments import measured
 from signorini.engine.memory_check import refuse_fields
 from signorini.engine.prepare import Prepared, prepare
@@ -99,7 +99,7 @@ def solve_prepared(
     begin = _first(prepared) if start is None else _fitting(prepared, start)
     history = _follow(prepared, begin, wellposed, after_step)
     if prepared.model.fatigue and history.solved:
-        history = replace(history, fatigue_results=asked_fatigue(history))
+        history = with_fatigue(history)
     if raise_on_failure:
         raise_failure(history)
     return history
