@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from signorini.arrays import Array
 from signorini.clock import Clock
 from signorini.engine.fatigue import assess_fatigue
 from signorini.engine.fatigue_places import probe_of
@@ -27,6 +28,7 @@ from signorini.model.model import Model
 from signorini.output.archive import write_archive
 from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import read_checkpoint, write_checkpoint
+from signorini.output.fatigue_csv import fatigue_fields
 from signorini.output.fields import Fields
 from signorini.output.folder import read_results
 from signorini.output.frd import write_frd
@@ -76,7 +78,7 @@ class Solution(History):
         """
         path = Path(path)
         writers: dict[str, Callable[[], object]] = {
-            ".vtu": lambda: write_bodies(self._fields.at(self.last), path),
+            ".vtu": lambda: write_bodies(self._fields.at(self.last), path, self._fatigue_fields),
             ".pvd": lambda: write_pvd(self, self._fields, path),
             ".h5": lambda: write_archive(self, path),
             ".frd": lambda: write_frd(self, self._fields, path),
@@ -232,6 +234,12 @@ class Solution(History):
     @cached_property
     def _fields(self) -> Fields:
         return Fields(self.model)
+
+    @property
+    def _fatigue_fields(self) -> dict[str, Array]:
+        """Point arrays of the criteria that the model asks for."""
+        results = self.fatigue_results
+        return fatigue_fields(results, self._fields.stresses(self.last)) if results else {}
 
     def plot(self) -> Figure:
         """Draw pressure and friction of every contact at the end of the last step."""

@@ -64,7 +64,7 @@ MISTAKES = {
         "[[stepp]]",
         ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, "
         "solver, body, support, foundation, load, contact, obstacle, rigid_body, equation, "
-        "cyclic_symmetry, bolt, step",
+        "cyclic_symmetry, bolt, fatigue, step",
     ),
     "unknown boundary": (
         'on = "axis"',

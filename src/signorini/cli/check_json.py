@@ -82,5 +82,11 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
             {"name": step.name, "factors": factors}
             for step, factors in zip(model.steps, model.factors()[1:], strict=True)
         ],
+        "fatigue": [
+            request.criterion.table
+            | {"where": list(request.where), "steps": list(request.steps)}
+            | {"distance": request.distance, "average": request.average}
+            for request in model.fatigue
+        ],
         "notes": list(notes),
     }

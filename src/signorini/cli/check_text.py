@@ -49,6 +49,7 @@ def deck_text(deck: Deck, examined: Examined) -> list[str]:
         *([("equations", [_equations(examined)])] if model.equations else []),
         ("contacts", _contacts(examined)),
         ("steps", _steps(model)),
+        *([("fatigue", _fatigue(model))] if model.fatigue else []),
     ):
         lines += ["", title, *(align(rows) if rows else ["  none"])]
     notes = all_notes(deck, examined)
@@ -188,6 +189,19 @@ def _steps(model: Model) -> Rows:
             )
         )
     return rows
+
+
+def _fatigue(model: Model) -> Rows:
+    last = model.steps[-1].name or "the last step"
+    return [
+        (
+            request.criterion.words,
+            f"on {', '.join(request.where) or 'all contacts'}",
+            f"{request.average} at distance {request.distance:g}" if request.distance else "at the surface",
+            f"over {', '.join(request.steps) or last}",
+        )
+        for request in model.fatigue
+    ]
 
 
 def _stepping(step: Step, dimension: int) -> str:

@@ -14,6 +14,7 @@ import numpy as np
 
 from signorini.deck.tables import FIELDS, OBSTACLES
 from signorini.deck.varying import spelled
+from signorini.fatigue.criteria import FatigueCriterion
 from signorini.law.closure import Closure
 from signorini.law.friction import FrictionLaw
 from signorini.model.material import Material
@@ -136,7 +137,7 @@ def _value(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, FrictionLaw | Closure):
+    if isinstance(value, FrictionLaw | Closure | FatigueCriterion):
         value = value.table
     if isinstance(value, Wear):
         value = _given(value)

@@ -32,6 +32,12 @@ class FatigueCriterion:
         given = {field.name: getattr(self, field.name) for field in fields(self)}
         return {"name": self.name} | {key: value for key, value in given.items() if value is not None}
 
+    @property
+    def words(self) -> str:
+        """What `check` says of it."""
+        parts = (f"{key.replace('_', ' ')} {value:g}" for key, value in self.table.items() if key != "name")
+        return ", ".join([self.name, *parts])
+
 
 @dataclass(frozen=True, kw_only=True)
 class StrainLife(FatigueCriterion):

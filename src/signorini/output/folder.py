@@ -22,6 +22,7 @@ from signorini.output.archive import GrowingArchive, read_archive, write_archive
 from signorini.output.checkpoint import write_checkpoint
 from signorini.output.contact_csv import write_contacts
 from signorini.output.dat import write_dat
+from signorini.output.fatigue_csv import fatigue_fields, write_fatigue
 from signorini.output.fields import Fields
 from signorini.output.frd import write_frd
 from signorini.output.history_csv import write_history
@@ -38,9 +39,9 @@ except ImportError:  # Windows has no such module; two runs into one folder are 
 _MAX_KEEP_SHARE = 0.1  # of the time: more than that a run does not spend on writing what is finished while steps wait
 _ASIDE_PREFIX = ".writing-"  # of folders in which files are written before they appear
 _OWN_NAMES = re.compile(
-    r"(summary\.json|(contact|history)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.(vtu|pvd)|"
+    r"(summary\.json|(contact|history|fatigue)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.(vtu|pvd)|"
     r"solution\.(pvd|h5|frd|dat)|"
-    r"(contact|stress|peeq|mesh|view|history)\.png)"
+    r"(contact|stress|peeq|mesh|view|history|fatigue)\.png)"
 )
 _OWN_FIELD_NAMES = re.compile(r"(solution|contact)_\d{4,}_\d{4,}\.vtu")
 
@@ -281,7 +282,12 @@ def _write_tables(history: History, fields: Fields, folder: Path, *, done: Colle
     if len(history.steps) > 1 or any(shot.displacement is not None for shot in history.last.instants[:-1]):
         names += write_series(fields, frames(history), folder, done=done)
     last = folder / f"solution_{len(history.steps):04d}.vtu"
-    if last.exists():
+    if history.fatigue_results:
+        write_fatigue(history, folder / "fatigue.csv")
+        names.append("fatigue.csv")
+        further = fatigue_fields(history.fatigue_results, fields.stresses(history.last))
+        write_bodies(fields.at(history.last), folder / "solution.vtu", further)
+    elif last.exists():
         shutil.copyfile(last, folder / "solution.vtu")
     else:
         write_bodies(fields.at(history.last), folder / "solution.vtu")

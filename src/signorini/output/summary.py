@@ -15,6 +15,7 @@ from signorini.memory import peak_memory
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle
+from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.history import PHASES, History
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, ObstacleResult, StepResult
 
@@ -52,6 +53,7 @@ def summary(history: History, seconds: Mapping[str, float], deck: str = "") -> d
         "backend": history.backend,
         "peak_memory_bytes": peak_memory(),
         "well_posedness": _well_posedness(history),
+        "fatigue": [_fatigue(model, result) for result in history.fatigue_results],
         "steps": [_step(model, step) for step in history.steps],
     }
 
@@ -80,6 +82,31 @@ def _well_posedness(history: History) -> dict[str, Any] | None:
         "verdict": found.verdict,
         "words": found.words,
         "others": [[_contact(*pair) for pair in zip(contacts, other, strict=True)] for other in found.others],
+    }
+
+
+def _fatigue(model: Model, result: FatigueResult) -> dict[str, Any]:
+    """One criterion and its worst place; null is what it does not know, and a life without end."""
+    i, request = result.worst, result.request
+    return {
+        "criterion": request.criterion.table,
+        "where": list(request.where),
+        "steps": list(result.steps),
+        "distance": request.distance,
+        "average": request.average,
+        "places": len(result.node),
+        "moments": result.moments,
+        "exact": result.exact,
+        "worst": {
+            "parameter": float(result.parameter[i]),
+            "amplitude": float(result.amplitude[i]),
+            "stress": float(result.stress[i]),
+            "body": str(result.body[i]),
+            "node": int(model.mesh.labels[result.node[i]]),
+            "at": _list(result.points[i]),
+            "plane": _list(result.plane[i]) if result.planes else None,
+            "life": float(result.life[i]) if math.isfinite(result.life[i]) else None,
+        },
     }
 
 

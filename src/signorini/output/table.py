@@ -7,8 +7,9 @@ import textwrap
 from collections.abc import Collection, Iterator, Sequence
 from itertools import zip_longest
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.solution.certificate import TOLERANCE
+from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK, StepResult
 
@@ -38,6 +39,8 @@ def history_table(history: History, *, failure: bool = True) -> str:
     ]
     for number, step in enumerate(history.steps, start=1):
         lines += ["", *_step_lines(step, number)]
+    for result in history.fatigue_results:
+        lines += ["", *textwrap.wrap(_fatigue_line(result, mesh.labels), 112, subsequent_indent="    ")]
     for note in dict.fromkeys(note for step in history.steps for note in step.notes):
         lines += ["", *textwrap.wrap(f"{_whose(note, history.steps)}: {note}", 112)]
     if history.wellposedness is not None:
@@ -126,6 +129,20 @@ def _wear_lines(step: StepResult) -> Iterator[str]:
             f"worn: {contact.name}: {contact.nonmortar} by up to {depth:.5g}, volume {volume:.5g}; {contact.mortar} by "
             f"up to {mortar_depth:.5g}, volume {mortar_volume:.5g}"
         )
+
+
+def _fatigue_line(result: FatigueResult, labels: IntArray) -> str:
+    """The worst place of a fatigue criterion, and its plane."""
+    i = result.worst
+    amplitude, stress = result.request.criterion.terms
+    plane = f", on the plane with the normal {spell_vector(result.plane[i], _ROUNDING_TOL)}" if result.planes else ""
+    life = f"; life {result.life[i]:.4g} cycles" if result.lives else ""
+    below = f", {result.request.average} at distance {result.request.distance:g}" if result.request.distance else ""
+    return (
+        f"fatigue, {result.name} over {', '.join(result.steps)}{below}: at most {result.parameter[i]:.5g} in "
+        f"'{result.body[i]}' at node {labels[result.node[i]]}, {spell_vector(result.points[i])}{plane}: {amplitude} "
+        f"{result.amplitude[i]:.5g}, {stress} {result.stress[i]:.5g}{life}"
+    )
 
 
 def _turn(value: float | Array) -> str:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +20,7 @@ from signorini.solution.surface import contact_faces, status_codes
 _FACES = {3: "triangle", 4: "quad"}
 
 
-def write_bodies(fields: BodyFields, path: Path) -> None:
+def write_bodies(fields: BodyFields, path: Path, further: Mapping[str, Array] | None = None) -> None:
     """Write displacements and stresses of the bodies in one state.
 
     Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz, xz, force per area, tension
@@ -28,6 +28,12 @@ def write_bodies(fields: BodyFields, path: Path) -> None:
     mesh or deck). Cell array: ``body`` (0, 1, ... in the order of the model). Where bodies yield, points and cells
     (their means) have ``peeq``, the equivalent plastic strain, ``plastic_strain`` (the tensor, components as those of
     the stress) and ``back_stress`` (the sum of all). Where sides wear, points have ``worn_depth`` (length).
+
+    Parameters
+    ----------
+    fields : of the bodies
+    path : of the file
+    further : point arrays by name, (n,)
     """
     import meshio
 
@@ -42,6 +48,7 @@ def write_bodies(fields: BodyFields, path: Path) -> None:
             "node": fields.node,
             **({} if fields.plastic is None else _plastic(fields.plastic)),
             **({} if fields.depth is None else {"worn_depth": fields.depth}),
+            **(further or {}),
         },
         cell_data={"body": list(fields.body), **_by_name(fields.in_cells)},
     )
