@@ -12,8 +12,10 @@ from signorini.deck import DeckError, read
 from signorini.deck.load import _KEYS
 from signorini.deck.meshes import GENERATORS
 from signorini.deck.tables import _CONTACT_KEYS, _OBSTACLE_KEYS
+from signorini.fatigue import Crossland, FatemiSocie
 from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
+from signorini.model.fatigue import Fatigue
 from signorini.model.material import Elastic, Orthotropic
 from signorini.model.plastic import Plastic
 from signorini.model.step import Step
@@ -43,7 +45,21 @@ def test_every_key_is_explained() -> None:
     }
     keys |= {
         field.name
-        for kind in (Support, Foundation, Load, Step, Body, Elastic, Plastic, Orthotropic, Wear, SolverSettings)
+        for kind in (
+            Support,
+            Foundation,
+            Load,
+            Step,
+            Body,
+            Elastic,
+            Plastic,
+            Orthotropic,
+            Wear,
+            Fatigue,
+            FatemiSocie,
+            Crossland,
+            SolverSettings,
+        )
         for field in fields(kind)
     }
     keys |= {name for generator in GENERATORS.values() for name in inspect.signature(generator).parameters}

@@ -84,7 +84,16 @@ class Results:
         self.fields = meshio.read(folder / "solution.vtu")
 
 
-_LONG = ("ball_on_block", "block_over_edge", "bolted_bracket", "bolted_joint", "fretting", "indentation", "wear")
+_LONG = (
+    "ball_on_block",
+    "block_over_edge",
+    "bolted_bracket",
+    "bolted_joint",
+    "fretting",
+    "fretting_fatigue",
+    "indentation",
+    "wear",
+)
 
 
 def example(path: Path) -> Any:

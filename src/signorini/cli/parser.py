@@ -53,7 +53,9 @@ def make_parser() -> argparse.ArgumentParser:
     plot = commands.add_parser("plot", parents=[shared], help="draw the results in a folder")
     plot.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
     plot.add_argument(
-        "--what", choices=("contact", "stress", "peeq", "mesh", "view", "history", "wear", "escape"), default="contact"
+        "--what",
+        choices=("contact", "stress", "peeq", "mesh", "view", "history", "wear", "fatigue", "escape"),
+        default="contact",
     )
     plot.add_argument("-o", dest="file", metavar="FILE", help="PNG, PDF or SVG file (default: WHAT.png in DIR)")
 

@@ -14,6 +14,7 @@ from signorini.output.folder import read_folder, read_results
 from signorini.output.table import align
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
+from signorini.plot.fatigue import draw_fatigue
 from signorini.plot.field import draw_mesh, draw_peeq, draw_stress
 from signorini.plot.history import draw_history
 from signorini.plot.picture_data import PictureData
@@ -65,6 +66,8 @@ def _draw(history: History, what: str) -> Figure:
         return draw_solid_mesh(data) if data.solid else draw_mesh(data)
     if what == "wear":
         return draw_wear(data)
+    if what == "fatigue":
+        return draw_fatigue(data)
     return draw_history(data) if what == "history" else draw_contacts(data)
 
 

@@ -58,12 +58,12 @@ def _draw_field(data: PictureData, scalar: Scalar) -> Figure:
     inside = _inside(window, moved)
     top, largest = float(scalar.values[inside].max()), float(scalar.values.max())
     levels = np.linspace(0.0, max(top, 1e-300), 25)
-    mesh = Triangulation(moved[:, 0], moved[:, 1], _triangles(data.outlines))
+    mesh = Triangulation(moved[:, 0], moved[:, 1], triangles(data.outlines))
     figure, panels = _canvas(moved, window, data.walls)
     for axes in panels:
         extend = "max" if largest > top else "neither"
         field = axes.tricontourf(mesh, scalar.values, levels=levels, cmap="viridis", extend=extend)
-        _edges(axes, data.outlines, moved, colour="#ffffff", alpha=0.35)
+        draw_edges(axes, data.outlines, moved, colour="#ffffff", alpha=0.35)
         if factor == 1.0:  # otherwise bodies are not drawn where obstacles have stopped them
             draw_walls(axes, data.walls, moved=True)
     beyond = f" (elsewhere up to {largest:.4g})" if largest > top else ""
@@ -86,7 +86,7 @@ def draw_mesh(data: PictureData) -> Figure:
         for cells, body in zip(data.outlines, grid.body, strict=True):
             faces = [BODIES[i % len(BODIES)] for i in body]
             axes.add_collection(PolyCollection(list(grid.points[cells]), facecolors=faces, edgecolors="none"))
-        _edges(axes, data.outlines, grid.points, colour="#7d7d7d", alpha=1.0)
+        draw_edges(axes, data.outlines, grid.points, colour="#7d7d7d", alpha=1.0)
         draw_walls(axes, data.walls, moved=False)
         for words, own in data.dots.items():
             x, y = grid.points[own].T
@@ -173,8 +173,15 @@ def _canvas(points: Array, window: Window | None, walls: list[Wall]) -> tuple[Fi
     return figure, panels
 
 
-def _edges(axes: Axes, outlines: list[IntArray], points: Array, *, colour: str, alpha: float) -> None:
-    """Edges of the cells: thinner lines where more cells are in view, none to speak of where they would cover all."""
+def draw_edges(axes: Axes, outlines: list[IntArray], points: Array, *, colour: str, alpha: float) -> None:
+    """Edges of the cells: thinner lines where more cells are in view, none to speak of where they would cover all.
+
+    Parameters
+    ----------
+    axes : whose limits are set
+    outlines, points : of the cells, see `PictureData.outlines`
+    colour, alpha : of the lines
+    """
     from matplotlib.collections import PolyCollection
 
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
@@ -198,6 +205,6 @@ def _finish(panels: list[Axes], closer: str) -> None:
         label(axes, x="x", y="y" if axes is panels[0] else "", title="" if axes is panels[0] else closer)
 
 
-def _triangles(outlines: list[IntArray]) -> IntArray:
+def triangles(outlines: list[IntArray]) -> IntArray:
     """Cells as triangles, (m, 3)."""
     return np.vstack([cells[:, corners] for cells in outlines for corners in _CUTS[cells.shape[1]]])

@@ -10,6 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
+from signorini.output.fatigue_csv import fatigue_fields
 from signorini.output.fields import BodyFields, Fields
 from signorini.plot.curve import Curve, curve_of
 from signorini.plot.patch import Patch, patch_of
@@ -90,6 +91,23 @@ class PictureData:
         if self.bodies.plastic is None:
             raise InputError("has no body that yields; expected another picture", where=("peeq",))
         return Scalar(self.bodies.plastic.equivalent, "equivalent plastic strain{}")
+
+    @cached_property
+    def fatigue(self) -> list[Array]:
+        """Parameters of every fatigue criterion at the points of the bodies, NaN where it was not asked for.
+
+        Raises
+        ------
+        InputError
+            If none was.
+        """
+        results = self.history.fatigue_results
+        if not results:
+            raise InputError(
+                "was not asked for; expected [[fatigue]] in the deck, or another picture", where=("fatigue",)
+            )
+        fields = fatigue_fields(results, self._fields.stresses(self.last))
+        return [values for name, values in fields.items() if not name.endswith("_life")]
 
     @property
     def yielded(self) -> BoolArray:
