@@ -10,6 +10,7 @@ from typing import Any
 from signorini.deck import Deck
 from signorini.engine.examine import Examined
 from signorini.model.conditions import Load
+from signorini.model.model import Model
 from signorini.model.varying import spell
 
 
@@ -82,11 +83,16 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
             {"name": step.name, "factors": factors}
             for step, factors in zip(model.steps, model.factors()[1:], strict=True)
         ],
-        "fatigue": [
-            request.criterion.table
-            | {"where": list(request.where), "steps": list(request.steps)}
-            | {"distance": request.distance, "average": request.average}
-            for request in model.fatigue
-        ],
+        "fatigue": _fatigue(model),
         "notes": list(notes),
     }
+
+
+def _fatigue(model: Model) -> list[dict[str, Any]]:
+    """Fatigue criteria that are asked for."""
+    return [
+        request.criterion.table
+        | {"where": list(request.where), "steps": list(request.steps)}
+        | {"distance": request.distance, "average": request.average}
+        for request in model.fatigue
+    ]
