@@ -8,7 +8,7 @@ On its line it is a pair of an interface with a compliance, and what is left to 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Self
@@ -19,8 +19,9 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.checks import number
 from signorini.errors import InputError
 
-_END = 7.0  # of the clearance, beyond first contact: 640 times the pressure at no gap, where the last slope goes on
-_MOST_POINTS = 200  # of a curve: 1e-4 of the pressure takes 90
+_END = 7.0  # of the clearance, beyond where pressure begins: 4460 times the pressure at no gap; the last slope goes on
+_MOST_POINTS = 200  # of a curve: 0.001 of the pressure takes some 140
+_FLOOR = 0.01  # of the pressure where sides touch: errors are told of the pressure and that
 
 
 @dataclass(frozen=True)
@@ -86,9 +87,45 @@ class Closure:
         """
         c = number(clearance, ("clearance",), above=0.0)
         p_0 = number(pressure, ("pressure",), above=0.0)
+        law = cls.secants(lambda x: x * math.expm1(x) / math.expm1(1.0), 0.0, _END, tolerance)
+        return cls([(c * (x - 1.0), p_0 * p) for x, p in law.points])
+
+    @classmethod
+    def secants(cls, pressure: Callable[[float], float], first: float, last: float, tolerance: float) -> Self:
+        """Secants of a pressure that grows with the closure ever faster, between two closures.
+
+        Parameters
+        ----------
+        pressure : of a closure, 0 at the first one; in units of the pressure where sides touch, or what else counts
+        first, last : closures, beyond the last of which the last secant goes on
+        tolerance : the most by which a secant lies above it, of the pressure there and a hundredth of the unit
+
+        Raises
+        ------
+        InputError
+            For a tolerance that is no number > 0, or takes more than 200 secants.
+
+        Examples
+        --------
+        >>> Closure.secants(lambda closure: closure**2, 0.0, 1.0, 0.3).points[-1]
+        (1.0, 1.0)
+        """
         tol = number(tolerance, ("tolerance",), above=0.0)
-        x = _secants(tol)
-        return cls([(c * (at - 1.0), p_0 * _exponential(at)) for at in x])
+        ends = [first]
+        while ends[-1] < last and len(ends) <= _MOST_POINTS:
+            low, high = ends[-1], last
+            if _lies_above(pressure, low, high) > tol:
+                for _ in range(60):  # halvings: an interval of numbers has no more
+                    middle = 0.5 * (low + high)
+                    if _lies_above(pressure, ends[-1], middle) <= tol:
+                        low = middle
+                    else:
+                        high = middle
+            ends.append(high)
+        if ends[-1] < last:
+            words = f"is {tol:g}, for which {_MOST_POINTS} secants are not enough; expected more"
+            raise InputError(words, where=("tolerance",))
+        return cls([(at, pressure(at)) for at in ends])
 
     @property
     def mean_compliance(self) -> float:
@@ -108,34 +145,12 @@ class Closure:
         return f"closes{begins} to {last:g} under {pressure:g}, {len(self.points) - 1} lines"
 
 
-def _exponential(x: float) -> float:
-    return x * math.expm1(x) / math.expm1(1.0)
-
-
-def _secants(tolerance: float) -> list[float]:
-    """Ends of secants of the exponential law, each as long as its error allows."""
-    ends = [0.0]
-    while ends[-1] < _END:
-        low, high = ends[-1], _END
-        if len(ends) > _MOST_POINTS:
-            raise InputError(
-                f"is {tolerance:g}, for which {_MOST_POINTS} secants are not enough; expected more",
-                where=("tolerance",),
-            )
-        if _lies_above(low, high) > tolerance:
-            for _ in range(60):  # halvings of an interval of numbers
-                middle = 0.5 * (low + high)
-                low, high = (middle, high) if _lies_above(ends[-1], middle) <= tolerance else (low, middle)
-        ends.append(high)
-    return ends
-
-
-def _lies_above(one: float, two: float) -> float:
-    """How far a secant lies above the exponential law at most, of the pressure there and a hundredth of p_0."""
-    x = np.linspace(one, two, 33)[1:-1]
-    law = x * np.expm1(x) / math.expm1(1.0)
-    secant = np.interp(x, [one, two], [_exponential(one), _exponential(two)])
-    return float(((secant - law) / (law + 0.01)).max())
+def _lies_above(pressure: Callable[[float], float], one: float, two: float) -> float:
+    """How far a secant lies above a curve at most, of the pressure there and a hundredth of its unit."""
+    at = np.linspace(one, two, 33)[1:-1]
+    curve = np.array([pressure(x) for x in at])
+    secant = np.interp(at, [one, two], [pressure(one), pressure(two)])
+    return float(((secant - curve) / (curve + _FLOOR)).max())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

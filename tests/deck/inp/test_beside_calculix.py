@@ -10,12 +10,15 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.deck import load_deck
 from tests.helpers.calculix import ccx_displacements, needs_ccx
 
 PRESS = "*BOUNDARY\nHEAD,1,2\nHEAD,3,3,-.0005"
 PULL = "*BOUNDARY\nHEAD,1,2\nHEAD,3,3,.0005"
 SLIDE = "*BOUNDARY\nHEAD,1,1,.002"
 SOFT = "*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR\n1.E6\n*FRICTION\n.3,1.E5\n"
+TABLE = SOFT.replace("=LINEAR\n1.E6", "=TABULAR\n0.,0.\n.1,1.E-4\n2.,2.E-4")
+CURVE = SOFT.replace("=LINEAR\n1.E6", "=EXPONENTIAL\n1.E-4,.1")
 FACES = "*CONTACT PAIR,INTERACTION=I,TYPE=SURFACE TO SURFACE\nSL,MA\n"
 NODES = FACES.replace("SURFACE TO", "NODE TO")
 REFERENCE = "*TIE,NAME=T\nSL,MA\n*SURFACE,NAME=UP\nEB,S2\n*NODE\n101,.5,.5,3.\n102,0,0,0\n"
@@ -32,6 +35,8 @@ def law(words: str = SOFT, pair: str = FACES) -> str:
 CASES: dict[str, tuple[str, list[str], float, int, float]] = {
     "pressed": (law(), [PRESS], 0.0, 1, 2e-4),
     "nodes pressed": (law(pair=NODES), [PRESS], 0.0, 1, 2e-4),
+    "pressed on a table of pressures": (law(TABLE, NODES), [PRESS], 0.0, 4, 4e-6),
+    "pressed on an exponential law": (law(CURVE, NODES), [PRESS], 0.0, 4, 4e-4),
     "pressed and dragged": (law(), [PRESS, SLIDE], 0.0, 10, 1e-3),
     "friction changed": (
         law(),
@@ -130,3 +135,30 @@ def test_displacements_are_those_of_calculix(tmp_path: Path, case: str) -> None:
     printed = printed[len(printed) // len(steps) - 1 :: len(printed) // len(steps)]  # at the ends of the steps
     found = np.array([step.displacement[:36] for step in sg.solve(sg.read(path)).steps])
     np.testing.assert_allclose(found, printed, rtol=0.0, atol=largest * np.abs(printed).max())
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("TABULAR\n0.,0.\n.1,1.E-4,20.", "66: *SURFACE BEHAVIOR: a table that depends on temperature is not supported"),
+        (
+            "TABULAR\n0.,0.\n.2,1.E-4\n.1,2.E-4",
+            "67: *SURFACE BEHAVIOR: pressure and overlap: is 0.1 after 0.2; expected pressures that grow",
+        ),
+        (
+            "TABULAR\n0.,0.",
+            "65: *SURFACE BEHAVIOR: pressure and overlap: expected two points or more, each [closure, pressure]",
+        ),
+        ("EXPONENTIAL\n0.,1.", "65: has 0 in field 1; expected the clearance c0, a number > 0"),
+    ],
+)
+def test_what_is_no_law_of_pressure(tmp_path, words, said):
+    behaviour = f"*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE={words}\n"
+    with pytest.raises(sg.InputError) as caught:
+        sg.read(deck(tmp_path, law(behaviour), [PRESS], 0.0, 1))
+    assert said in str(caught.value)
+
+
+def test_the_exponential_law_is_told_to_be_calculixs(tmp_path):
+    notes = load_deck(deck(tmp_path, law(CURVE), [PRESS], 0.0, 1)).notes
+    assert any(note.startswith("PRESSURE-OVERCLOSURE=EXPONENTIAL is p0 exp(-ln(100) gap / c0)") for note in notes)

@@ -121,6 +121,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     notes = [
         *_notes(known.grid, steps, contacts, small_strain, deck_increments),
         *_flow_notes(known.sections, model.bodies),
+        *dict.fromkeys(law.note for law in known.interactions.values() if law.note),
         *_overlap_notes(outside, known),
     ]
     return KeywordDeck(
@@ -174,7 +175,11 @@ def _refuse_large(steps: Sequence[DeckStep], contacts: Sequence[Pair], small_str
     moving = bool(contacts) and all(pair.contact.slides or pair.contact.tied for pair in contacts)
     for step in steps:
         if step.nlgeom and not small_strain and not (moving and any(pair.contact.slides for pair in contacts)):
-            why = "here there is no contact" if not contacts else "here pairs stay (SMALL SLIDING, CLEARANCE, ADJUST)"
+            why = (
+                "here there is no contact"
+                if not contacts
+                else "here pairs stay (SMALL SLIDING, CLEARANCE, ADJUST, TABULAR)"
+            )
             raise step.card.error(
                 "NLGEOM asks for large displacements, which bodies have whose contact pairs follow them, not by large "
                 f"strains; {why}; --small-strain solves with small ones"

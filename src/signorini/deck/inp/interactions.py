@@ -3,16 +3,27 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from signorini.deck.inp.card import Card, Row, to_number
 from signorini.deck.inp.keywords import collect
+from signorini.errors import InputError
+from signorini.law.closure import Closure
 from signorini.deck.inp.refusals import Refusals
 
 _INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
 """Keywords that belong to the ``*SURFACE INTERACTION`` before them and that are read here."""
+
+EXPONENTIAL_NOTE = (
+    "PRESSURE-OVERCLOSURE=EXPONENTIAL is p0 exp(-ln(100) gap / c0), as in CalculiX, by secants within 1 %; Abaqus means "
+    "another curve, that of closure = { clearance = c0, pressure = p0 }"
+)
+
+_EXPONENTIAL_TOLERANCE = 0.01  # of the pressure, as of `Closure.exponential`
+_EXPONENTIAL_END = 2.0  # of c0: the overlap where p is 10^4 p0, from which on the last secant goes on
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -26,6 +37,8 @@ class Interaction:
     normal_compliance, tangential_compliance : length per pressure
     shear_limit : largest traction of friction, or None
     tied : the surfaces never part
+    closure : pressure over overlap as a table, or None
+    note : where Abaqus and CalculiX differ, and which of them is followed
     """
 
     card: Card
@@ -34,6 +47,8 @@ class Interaction:
     tangential_compliance: float = 0.0
     shear_limit: float | None = None
     tied: bool = False
+    closure: Closure | None = None
+    note: str = ""
 
     @property
     def name(self) -> str:
@@ -57,13 +72,43 @@ def _with(law: Interaction, card: Card) -> Interaction:
         return replace(law, friction=friction, tangential_compliance=compliance, shear_limit=_limit(card))
     enforcement = ("PENALTY", "AUGMENTED LAGRANGE", "DIRECT", "MECHANICAL CONSTRAINT")  # ours is exact
     card.refuse_unknown(("PRESSURE-OVERCLOSURE",), enforcement)
-    kind = card.choice("PRESSURE-OVERCLOSURE", ("HARD", "LINEAR", "TIED"), "HARD")
+    kind = card.choice("PRESSURE-OVERCLOSURE", ("HARD", "LINEAR", "TABULAR", "EXPONENTIAL", "TIED"), "HARD")
     if kind == "TIED":
         return replace(law, tied=True)
     if kind == "LINEAR":
         row = card.row("the stiffness, pressure per overlap")
         return replace(law, normal_compliance=1.0 / _positive(row, 0, "the stiffness, pressure per overlap"))
+    if kind == "TABULAR":
+        return replace(law, closure=_tabular(card))
+    if kind == "EXPONENTIAL":
+        return replace(law, closure=_exponential(card), note=EXPONENTIAL_NOTE)
     return law
+
+
+def _tabular(card: Card) -> Closure:
+    """Pressures and overlaps, a line each; a first overlap below 0 is a clearance at which pressure begins."""
+    points, rows = [], list(card.rows())
+    for row in rows:
+        if any(row.fields[2:]):
+            raise row.error("*SURFACE BEHAVIOR: a table that depends on temperature is not supported")
+        points.append((row.number(1, "the overlap"), row.number(0, "the pressure")))
+    try:
+        return Closure(points)
+    except InputError as error:
+        place = error.where[1] if len(error.where) > 1 else 0
+        at = rows[int(place)] if rows else card
+        raise at.error(f"*SURFACE BEHAVIOR: pressure and overlap: {error.message}") from error
+
+
+def _exponential(card: Card) -> Closure:
+    """CalculiX's law by secants: ``p = p_0 exp(-ln(100) gap / c_0)``, less its ten-thousandth part at a gap 2 c_0."""
+    row = card.row("the clearance c0 and the pressure p0")
+    clearance, pressure = _positive(row, 0, "the clearance c0"), _positive(row, 1, "the pressure p0")
+    decay = math.log(100.0)
+    law = Closure.secants(
+        lambda x: math.exp(decay * x) - math.exp(-2.0 * decay), -2.0, _EXPONENTIAL_END, _EXPONENTIAL_TOLERANCE
+    )
+    return Closure([(clearance * x, pressure * p) for x, p in law.points])
 
 
 def read_friction(card: Card) -> tuple[float | Literal["stick"], float]:

@@ -84,8 +84,10 @@ def _pairs_of(
                 "normal_compliance": law.normal_compliance,
                 "tangential_compliance": law.tangential_compliance,
                 "shear_limit": law.shear_limit,
+                "closure": law.closure,
             }
-            if large and not given.keys() & {"gap", "adjust"} and "SMALL SLIDING" not in card.parameters:
+            stays = law.closure is not None or given.keys() & {"gap", "adjust"} or "SMALL SLIDING" in card.parameters
+            if large and not stays:
                 given["sliding"] = "finite"
         found.append(_pair(card.at(row), slave, master, [*before, *found], law, **given))
     return found
