@@ -10,16 +10,16 @@ from typing import Literal
 
 from signorini.deck.inp.card import Card, Row, to_number
 from signorini.deck.inp.keywords import collect
+from signorini.deck.inp.refusals import Refusals
 from signorini.errors import InputError
 from signorini.law.closure import Closure
-from signorini.deck.inp.refusals import Refusals
 
 _INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
 """Keywords that belong to the ``*SURFACE INTERACTION`` before them and that are read here."""
 
 EXPONENTIAL_NOTE = (
-    "PRESSURE-OVERCLOSURE=EXPONENTIAL is p0 exp(-ln(100) gap / c0), as in CalculiX, by secants within 1 %; Abaqus means "
-    "another curve, that of closure = { clearance = c0, pressure = p0 }"
+    "PRESSURE-OVERCLOSURE=EXPONENTIAL is p0 exp(-ln(100) gap / c0), as in CalculiX, by secants within 1 %; Abaqus "
+    "means another curve, that of closure = { clearance = c0, pressure = p0 }"
 )
 
 _EXPONENTIAL_TOLERANCE = 0.01  # of the pressure, as of `Closure.exponential`
