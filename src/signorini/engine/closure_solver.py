@@ -16,8 +16,9 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
+from signorini.engine.increment import Increment, IncrementAnswer
 from signorini.engine.multipliers import MultiplierSolver
-from signorini.engine.solver import CondensedSolver, ContactSolver, Increment, IncrementAnswer
+from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.errors import told
 from signorini.interface.interface import Interface
 from signorini.law.closure import PairClosure

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, frozen
+from signorini.engine.increment import Mechanism
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
-from signorini.engine.solver import Mechanism
 from signorini.plasticity.bodies import YieldingBodies
 from signorini.plasticity.laws import Heat
 from signorini.plasticity.measure import size

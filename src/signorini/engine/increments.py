@@ -10,8 +10,8 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.attempt import MethodRun
+from signorini.engine.increment import Increment, IncrementAnswer
 from signorini.engine.prepare import Prepared
-from signorini.engine.solver import Increment, IncrementAnswer
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, keep
 from signorini.errors import SolveFailed, told
 from signorini.fem.rigid import describe_motion

@@ -15,7 +15,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
 from signorini.engine.examine import Examined
-from signorini.engine.solver import Increment, IncrementAnswer
+from signorini.engine.increment import Increment, IncrementAnswer
 from signorini.errors import InputError
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.engine.solver import Increment, IncrementAnswer
+from signorini.engine.increment import Increment, IncrementAnswer
 from signorini.plasticity.bodies import PlasticResponse, YieldingBodies
 from signorini.plasticity.bracket import Bracket, narrowed, secant
 from signorini.plasticity.laws import Heat

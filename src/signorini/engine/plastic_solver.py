@@ -25,8 +25,9 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
+from signorini.engine.increment import Increment, IncrementAnswer, Mechanism
 from signorini.engine.plastic_search import LineSearch
-from signorini.engine.solver import CondensedSolver, ContactSolver, Increment, IncrementAnswer, Mechanism
+from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface

@@ -8,114 +8,28 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Protocol, Self
+from typing import Any, Protocol, Self
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.attempt import MethodRun, Spent
-from signorini.clock import Clock
+from signorini.attempt import Spent
 from signorini.condense.condensed import Condensed
+from signorini.engine.increment import Increment, IncrementAnswer
 from signorini.fem.internal_forces import internal_forces
 from signorini.friction.history import Landing, PathSettings, PathState, Segment, follow, land
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.interface.interface import Interface
 from signorini.law.bound import Bound
-from signorini.outcome import Outcome
-from signorini.plasticity.state import PlasticState
 from signorini.settings import SolverSettings
-from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Scale
-from signorini.solution.state import LoadPoint, State
 
 _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before it is refined
 _REFINEMENTS = 2
 _SETTLING = 10  # refinements in all, while rounding that bends slender bodies still changes which pairs touch
 _MOST_ALLOWED = 1e-3  # of the data of the law: what answers that others follow may lack at most
 _LENGTH_PER_GAP = 1e-4  # of the largest gap or displacement: times the law's tolerance, 1e-10, a few roundings of it
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Increment:
-    """What an increment asks of a solver.
-
-    Attributes
-    ----------
-    system : bodies, supports, pairs and sizes of the data
-    f : (z,) forces on the free displacements
-    offset : (d, n) relative displacements of the pairs that f does not cause: gaps, supports, slips of the past, length
-    state : before the increment
-    last : the state an increment as long as this one before, where there is one
-    start : what a condensed law starts from: states (a,) in the plane, ``r - h`` (3, a) in space; None: as the state is
-    near : what bodies a little different answered, to start from before all else
-    floating : whether contact alone holds a body
-    imposed : (dofs,) displacements that supports impose
-    point : of the load history, at its end
-    clock : counts the seconds
-    allowed_lack : of the sizes of the data, what an answer may lack that others follow
-    """
-
-    system: DiscreteModel
-    f: Array
-    offset: Array
-    state: State
-    last: State | None = None
-    start: Array | IntArray | None = None
-    near: IncrementAnswer | None = None
-    floating: bool
-    imposed: Array
-    point: LoadPoint
-    clock: Clock
-    allowed_lack: float = 0.0
-
-
-class Mechanism(NamedTuple):
-    """A motion in which bodies flow without end.
-
-    Attributes
-    ----------
-    free : (z,) velocity of the free displacements
-    forces : (d, n) of the pairs meanwhile
-    """
-
-    free: Array
-    forces: Array
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class IncrementAnswer:
-    """What a solver answers.
-
-    Attributes
-    ----------
-    outcome, message : how it ended, in one word and in words
-    forces, moved : (d, n) forces of the pairs; gaps, length, and slip increments of those that the law is asked of
-    free : (z,) free displacements
-    status : (a,) codes of :mod:`signorini.law.states`, of the pairs that the law is asked of
-    trace : the methods tried, in order
-    lost : by how much motions of the pairs differ from those of the bodies, length: digits that are lost
-    escape : (k,) combination of the floating motions along which bodies leave, where it is known
-    plastic : what the points of bodies that yield remember at the end
-    mechanisms : velocities of the bodies where plastic flow runs away; every one may bound the load
-    """
-
-    outcome: Outcome
-    message: str
-    forces: Array
-    moved: Array
-    free: Array
-    status: IntArray
-    trace: tuple[MethodRun, ...]
-    lost: float = 0.0
-    escape: Array | None = None
-    plastic: PlasticState | None = None
-    mechanisms: tuple[Mechanism, ...] = ()
-
-    @property
-    def solved(self) -> bool:
-        """Whether a solution was found; the certificate is measured by who asked."""
-        return self.outcome == Outcome.SOLVED
 
 
 class ContactSolver(Protocol):
