@@ -54,8 +54,8 @@ def test_a_joint_that_does_not_slip_damps_nothing():
 @pytest.mark.parametrize(
     ("amplitudes", "mode", "words"),
     [
-        ([], 1, "amplitudes: are []; expected lengths > 0, ascending"),
-        ([2.0, 1.0], 1, "amplitudes: are [2.0, 1.0]; expected lengths > 0, ascending"),
+        ([], 1, "amplitudes: are none; expected one length or more"),
+        ([2.0, 1.0], 1, "amplitudes: are [2.0, 1.0]; expected them to ascend"),
         ([1.0], 0, "mode: is 0; expected a whole number >= 1"),
     ],
 )

@@ -8,10 +8,10 @@ import pytest
 
 import signorini as sg
 from signorini.gallery.vibrating import bar_in_a_bed
+from signorini.model.modes import JOINTS
 from signorini.output.modes_files import write_damping, write_loops, write_modes, write_shapes
 from signorini.output.modes_table import damping_table, modes_table
 from signorini.plot.modes import draw_damping, draw_modes
-from signorini.solution.modes import JOINTS
 from signorini.vibration.modes import modes_by_joint
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``signorini run``, ``check`` and ``convert``: what reads a deck. A wrong deck never waits for heavy imports."""
+"""``signorini run``, ``modes``, ``check``, ``convert``: what reads a deck. A wrong one waits for no heavy imports."""
 
 from __future__ import annotations
 
@@ -18,9 +18,21 @@ def run(options: argparse.Namespace) -> int:
     started = time.perf_counter()
     with progress(quiet=options.quiet) as clock, clock.phase("read"):
         deck = _load(options)
+    if deck.modes is not None and not deck.modes.preload:
+        raise InputError(f"'{deck.path}' asks for natural modes of bodies as they are drawn: use 'signorini modes'")
     from signorini.cli.run_deck import run_deck
 
     return run_deck(deck, options, clock, started)
+
+
+def modes(options: argparse.Namespace) -> int:
+    """Read, solve the steps, find natural modes, write, print; 0 if certified, 3 if not."""
+    started = time.perf_counter()
+    deck = _load(options)
+    from signorini.cli.run_modes import run_modes
+
+    with progress(quiet=options.quiet) as clock:
+        return run_modes(deck, options, clock, started)
 
 
 def check(options: argparse.Namespace) -> int:

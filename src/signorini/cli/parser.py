@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from signorini._version import __version__
+from signorini.model.modes import JOINTS
 
 _PURPOSE = "Frictional elastic contact by finite elements and linear complementarity."
 _EXITS = """exit codes: 0 done (run: solved and certified), 2 the input is wrong, 3 no certified solution,
@@ -29,6 +30,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     _add_run(commands, [shared, keywords])
+    _add_modes(commands, [shared, keywords])
 
     check = commands.add_parser("check", parents=[shared, keywords], help="say what would be solved, what looks wrong")
     check.add_argument(
@@ -104,3 +106,18 @@ def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
         "--wellposed", action="store_true", help="ask whether the solution is the only one, and look for others"
     )
     run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
+
+
+def _add_modes(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
+    modes = commands.add_parser("modes", parents=parents, help="natural frequencies about the end of a deck's steps")
+    modes.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
+    modes.add_argument("-n", dest="number", type=int, metavar="N", help="modes (default: as the deck says, or 6)")
+    modes.add_argument(
+        "--joint", dest="joints", action="append", choices=JOINTS, help="state of the joints, again for more of them"
+    )
+    modes.add_argument("--mode", type=int, metavar="K", help="whose loops are followed (default: 1)")
+    modes.add_argument(
+        "--amplitudes", type=float, nargs="+", metavar="A", help="of the loops: the largest displacement, ascending"
+    )
+    modes.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the deck's name)")
+    modes.add_argument("--quiet", action="store_true", help="print nothing but errors")

@@ -11,6 +11,7 @@ from signorini.deck.error import DeckError
 from signorini.deck.syntax import line_of
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
+from signorini.model.modes import ModesRequest
 from signorini.model.prints import Prints
 from signorini.settings import SolverSettings
 
@@ -26,6 +27,7 @@ class Deck:
     lines : line of every key and table, from 1, by its path
     unused_materials : names of materials that no body is made of
     settings : limits of the methods, of the table ``[solver]``
+    modes : natural modes that it asks for; None: none
     prints : what a deck of keywords asks for; None for other decks
     notes : how the model differs from what the deck asks for, and what was left out
     """
@@ -37,6 +39,7 @@ class Deck:
     notes: tuple[str, ...] = ()
     prints: Prints | None = None
     settings: SolverSettings = field(default_factory=SolverSettings)
+    modes: ModesRequest | None = None
 
     def locate(self, error: InputError) -> DeckError:
         """An error that is found after reading with the line of the deck that caused it."""

@@ -18,10 +18,11 @@ from signorini.deck.syntax import parse
 from signorini.deck.tables import FIELDS, deck_bodies, deck_materials, deck_parts
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
+from signorini.model.modes import ModesRequest
 from signorini.settings import SolverSettings
 from signorini.sources import Reach
 
-_KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "solver", *FIELDS)
+_KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "solver", "modes", *FIELDS)
 
 
 def read(
@@ -97,4 +98,12 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach
     named = {entry["material"] for entry in data["body"]}
     unused = tuple(name for name in materials if name not in named)
     settings = make(SolverSettings, table(data.get("solver", {}), ("solver",)), ("solver",))
-    return Deck(model=model, path=path, lines=MappingProxyType(dict(lines)), unused_materials=unused, settings=settings)
+    asked = make(ModesRequest, table(data["modes"], ("modes",)), ("modes",)) if "modes" in data else None
+    return Deck(
+        model=model,
+        path=path,
+        lines=MappingProxyType(dict(lines)),
+        unused_materials=unused,
+        settings=settings,
+        modes=asked,
+    )

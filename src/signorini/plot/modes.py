@@ -112,6 +112,8 @@ class _Solid:
 def draw_damping(damping: JointDamping, title: str = "") -> Figure:
     """Loops of a mode; over the amplitude its frequency, its damping ratio, and the dissipation with its exponents.
 
+    Loops are drawn without what the stuck joint would do, which hides them.
+
     Parameters
     ----------
     damping : of a mode
@@ -123,8 +125,9 @@ def draw_damping(damping: JointDamping, title: str = "") -> Figure:
     figure = Figure(figsize=(11.0, 8.0), layout="constrained")
     (loops, frequency), (ratio, spent) = figure.subplots(2, 2)
     for number, loop in enumerate(damping.loops, start=1):
-        loops.plot(loop.coordinate, loop.force, color=PRESSURE, lw=1.2, alpha=0.35 + 0.65 * number / len(damping.loops))
-    dress(loops, x="modal coordinate q", y="modal force Q", title="loops")
+        beyond = loop.coordinate - loop.force / (2.0 * np.pi * damping.frequency) ** 2
+        loops.plot(beyond, loop.force, color=PRESSURE, lw=1.2, alpha=0.35 + 0.65 * number / len(damping.loops))
+    dress(loops, x="modal coordinate beyond that of the stuck joint, q - Q / omega^2", y="modal force Q", title="loops")
     loops.xaxis.set_major_locator(MaxNLocator(nbins=6))
     share = damping.frequencies / damping.frequency
     _over_amplitude(frequency, damping.amplitudes, share, PRESSURE, powers=False)

@@ -10,11 +10,6 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.short import Short
 
-STUCK, SLIPPING, OPEN_JOINT = "stuck", "slipping", "open"
-"""What joints do in a mode: pairs that touch move as one; stay closed and slide freely; are not there."""
-
-JOINTS = (STUCK, SLIPPING, OPEN_JOINT)
-
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class NaturalModes(Short):
@@ -22,7 +17,7 @@ class NaturalModes(Short):
 
     Attributes
     ----------
-    joint : of :data:`JOINTS`
+    joint : of :data:`signorini.model.modes.JOINTS`
     squares : (k,) omega^2, ascending, angle^2 per time^2; 0 for rigid motions
     shapes : (k, nodes, d) displacements, mass-normalised: ``v M v = 1``
     forces : (k, nodes, d) ``M v``: the nodal forces of a mode, by which displacements are projected on it

@@ -19,8 +19,8 @@ from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import Interface, make_interface, pairs_of
 from signorini.law.states import OPEN
 from signorini.model.model import Model
+from signorini.model.modes import SLIPPING, STUCK
 from signorini.solution.checkpoint import Checkpoint
-from signorini.solution.modes import SLIPPING, STUCK
 
 _TOUCHING_GAP = 1e-9  # of the size of the mesh: smaller gaps of an unsolved model are closed
 _HELD_ROW = 1e-10  # of the largest row of B: smaller ones are rounding, supports hold such pairs

@@ -26,6 +26,7 @@ from signorini.engine.solve import raise_failure, solve
 from signorini.errors import InputError
 from signorini.model.conditions import Load
 from signorini.model.model import Model
+from signorini.model.modes import ascending
 from signorini.model.step import Step
 from signorini.settings import SolverSettings
 from signorini.solution.damping import DampingLoop, JointDamping
@@ -65,9 +66,9 @@ def joint_damping(
     if history.end is None or not history.solved:
         raise InputError("was not finished; expected a solved preload", where=("history",))
     whole(mode, ("mode",))
-    levels = np.asarray(amplitudes, float)
-    if levels.ndim != 1 or not len(levels) or not (np.diff(levels, prepend=0.0) > 0.0).all():
-        raise InputError(f"are {list(amplitudes)}; expected lengths > 0, ascending", where=("amplitudes",))
+    levels = np.array(ascending(list(amplitudes), ("amplitudes",)))
+    if not len(levels):
+        raise InputError("are none; expected one length or more", where=("amplitudes",))
     modes = natural_modes(history, mode)
     square = float(modes.squares[-1])
     if square == 0.0:

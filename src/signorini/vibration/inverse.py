@@ -18,7 +18,7 @@ from signorini.condense.ties import Ties, make_ties
 from signorini.errors import InputError
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite
 from signorini.linalg.registry import factorise
-from signorini.solution.modes import STUCK
+from signorini.model.modes import STUCK
 from signorini.vibration.bodies import VibratingBodies
 
 _SHIFT = 1e-3

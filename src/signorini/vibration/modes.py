@@ -13,17 +13,16 @@ from signorini.errors import InputError, SolveFailed
 from signorini.linalg.definite import ROUNDOFF
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
+from signorini.model.modes import JOINTS, MOST_MODES, STUCK
 from signorini.outcome import Outcome
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
-from signorini.solution.modes import JOINTS, STUCK, NaturalModes
+from signorini.solution.modes import NaturalModes
 from signorini.vibration.bodies import vibrating_bodies
 from signorini.vibration.eigen import Pairs, lowest
 from signorini.vibration.inverse import JointInverse, ShiftedBodies, shifted
 
 _MODE_TOL = 1e-6  # of omega^2 + s, and of 1: residuals and products of different modes; half of it in frequencies
-_MOST_MODES = 1000
-"""That can be asked for: so many no mesh resolves."""
 
 
 def natural_modes(of: Model | History, number: int, *, joint: str = STUCK) -> NaturalModes:
@@ -70,7 +69,7 @@ def modes_by_joint(
     ----------
     model : the model
     number : of modes
-    joints : of :data:`signorini.solution.modes.JOINTS`
+    joints : of :data:`signorini.model.modes.JOINTS`
     end : of a history of the model, about whose state the bodies vibrate; None: as they were drawn
 
     Raises
@@ -80,7 +79,7 @@ def modes_by_joint(
     SolveFailed
         If the modes found fail their certificate.
     """
-    whole(number, ("number",), most=_MOST_MODES)
+    whole(number, ("number",), most=MOST_MODES)
     for joint in joints:
         choice(joint, JOINTS, ("joint",), "state of the joints")
     ready = shifted(vibrating_bodies(model, end))

@@ -17,6 +17,7 @@ from signorini.deck.error import DeckError
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.conditions import Conditions, make_conditions
 from signorini.deck.inp.cyclic import make_cyclic
+from signorini.deck.inp.frequency import take_modes
 from signorini.deck.inp.grid import DeckGrid, element_type, make_grid
 from signorini.deck.inp.keywords import MODEL_WORDS, STEP_WORDS, of_keyword, refuse_unsupported
 from signorini.deck.inp.known import Known, make_known
@@ -79,7 +80,8 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
     small_strain : solve with small displacements what asks for large ones (NLGEOM)
     deck_increments : follow the deck's increments instead of the package's rule
     """
-    cards, refusals = flatten(read_cards(path, reach)), Refusals()
+    refusals = Refusals()
+    cards, frequency = take_modes(flatten(read_cards(path, reach)), refusals)
     outside, steps = split_steps(cards, refusals)
     ignored = _left_out(outside, steps, refusals)
     refusals.stop()
@@ -123,6 +125,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
         *_flow_notes(known.sections, model.bodies),
         *dict.fromkeys(law.note for law in known.interactions.values() if law.note),
         *_overlap_notes(outside, known),
+        *(() if frequency is None else frequency.notes),
     ]
     return KeywordDeck(
         model=model,
@@ -133,6 +136,7 @@ def read_deck(path: Path, reach: Reach, *, small_strain: bool, deck_increments: 
         notes=(*conditions.notes, *notes, *_ignored(ignored)),
         prints=make_prints(steps, known, contacts, rigid, model.mesh),
         unused_materials=known.unused_materials,
+        modes=None if frequency is None else frequency.request,
     )
 
 
