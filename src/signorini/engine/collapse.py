@@ -26,6 +26,7 @@ from signorini.plasticity.measure import size
 from signorini.solution.state import LoadPoint
 
 _MAX_DILATATION = 1e-2  # of the size of the strain rate: flow keeps the volume, what is left is not the mechanism yet
+_PRESSED = 3.0  # times the size of the deviator: pressure under a flat punch, whose work on what volume changes counts
 _MAX_ELASTIC = 1e-4  # of the work that the loads do: what bodies that only strain elastically may take up
 _OPENING_TOL = 1e-6  # of the largest velocity: by which pairs may approach, or slip where friction would resist
 
@@ -78,15 +79,17 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
     rate = bodies.flow_strains(v, heat[1])
     if bodies.laws.thin:  # the thickness gives way
         rate[:, 2] = -(rate[:, 0] + rate[:, 1])
-    dilatation = bodies.weights @ np.abs(bodies.dilatation(rate))
+    dilatation = float(bodies.weights @ np.abs(bodies.dilatation(rate)))
     rate[:, :3] -= rate[:, :3].mean(axis=1)[:, None]
     rate[:, 3:] *= 0.5
     strain = size(rate)
     if bodies.laws.endless[bodies.body[strain > 0.0]].any():
         return None
-    if dilatation > _MAX_DILATATION * float(bodies.weights @ strain):
+    share = dilatation / (float(bodies.weights @ strain) or 1.0)
+    if share > _MAX_DILATATION:
         return None
     parts, taken = _taken(bodies, np.sqrt(2.0 / 3.0) * bodies.weights * strain, *heat)
+    taken *= 1.0 + _PRESSED * share
     before, after = (_power(prepared, point, v) for point in (start, end))
     rubs = False
     if len(prepared.interface):

@@ -56,10 +56,13 @@ _PATIENCE = 3  # rounds in which a kept tangent has to gain that, together: sing
 _SHORTER = 0.5  # of the first step on it: a tangent whose steps are shorter than that may be waited for
 _LOST = 10.0  # times the first residual on it: beyond that it is not
 _SUBSTITUTION = 40.0  # operations that take as long as to move an entry of the factor through memory in one round
-_FLOWING = 30.0  # of the first, elastic step: steps beyond that, again and again, are bodies that flow away
+_FLOWING = 30.0  # of the first, elastic step: longer ones, again and again, are bodies that flow away
+_FARTHER = 30.0  # times that, where the mechanism is sought more closely: what volume changes falls by as much
 _MAX_LEAP = 10.0  # of how far bodies have moved: a longer step is cut, a soft tangent knows no better
 _STEADY = 0.5  # of the step before: steps of bodies that flow away do not fall below it
 _FLOWING_STEPS = 4  # in a row: so many of these are flow that runs away
+_DRIVEN_STEPS = 2  # in a row: on so many of these loads do more work than is taken, a single one may have turned
+_MECHANISMS = 8  # of the longest steps: each bounds the load, and the last need not bound it best
 _MECHANISM_ROUNDS = 12  # rounds: after so many the mechanism is known to four digits
 _MAX_LENGTHS = 1e7  # of the length of the data: beyond that arithmetic spoils the mechanism
 
@@ -90,15 +93,17 @@ class _Rounds:
     ----------
     residuals, steps : of every round: what equilibrium lacks, and the part of the step that was taken
     lengths : of every step, the largest displacement
+    powers : what equilibrium lacks, on every step: work that loads do there beyond what bodies and pairs take
     inputs, outputs : of the rounds on the factor at hand: x and what it became
     factorisations : of tangents
-    mechanisms : the longest step and the last: where flow runs away one of them is nearest to the mechanism
+    mechanisms : the last step and the longest ones: where flow runs away one of them is nearest to the mechanism
     least : part of the elastic law that is left in place from the start, once contact found nothing on a softer tangent
     """
 
     residuals: list[float] = field(default_factory=list)
     steps: list[float] = field(default_factory=list)
     lengths: list[float] = field(default_factory=list)
+    powers: list[float] = field(default_factory=list)
     inputs: list[Array] = field(default_factory=list)
     outputs: list[Array] = field(default_factory=list)
     factorisations: int = 0
@@ -110,22 +115,30 @@ class _Rounds:
         """Residual of the last round."""
         return self.residuals[-1] if self.residuals else np.inf
 
-    @property
-    def runs_away(self) -> bool:
-        """Whether steps stay long again and again: nothing holds the bodies."""
+    def run_away(self, beyond: float) -> bool:
+        """Whether steps stay longer than so many times the first, and loads do more work on them than is taken.
+
+        A little above the limit steps are long before they are the mechanism, and not all flows in their direction.
+        """
         if len(self.lengths) < _MECHANISM_ROUNDS:
             return False
         recent = self.lengths[-_FLOWING_STEPS - 1 :]
         steady = all(two > _STEADY * one for one, two in pairwise(recent))
-        return steady and min(recent) > _FLOWING * self.lengths[0]
+        return steady and min(recent) > beyond * self.lengths[0] and min(self.powers[-_DRIVEN_STEPS:]) > 0.0
 
-    def add(self, residual: float, step: float, motion: Mechanism) -> None:
-        """A round, with what equilibrium lacks, the part of the step that was taken, and the step."""
+    def add(self, residual: float, left: Array, step: float, motion: Mechanism) -> None:
+        """A round.
+
+        Parameters
+        ----------
+        residual, left : what equilibrium lacks, of the size of the forces and (z,)
+        step, motion : the part of the step that was taken, and the step
+        """
         length = float(np.abs(motion.free).max(initial=0.0))
+        self.powers.append(float(left @ motion.free))
         if np.isfinite(residual):
-            # where contact found no answer on a soft tangent steps on a stiffer one are shorter, and worse
-            longer = length >= max(self.lengths, default=0.0)
-            self.mechanisms = (motion,) if longer else (*self.mechanisms[:1], motion)
+            others = sorted(self.mechanisms, key=lambda one: float(np.abs(one.free).max(initial=0.0)), reverse=True)
+            self.mechanisms = (motion, *others[:_MECHANISMS])
         self.residuals.append(residual)
         self.steps.append(step)
         self.lengths.append(length)
@@ -167,6 +180,7 @@ class PlasticSolver:
     tangents : makes bodies that have yielded
     interface, scale, absent : of the moment
     ways : (k, m) combinations of the floating motions that occur, where some bodies rest; None: all of them
+    flowing : times the first step: bodies whose steps are longer, again and again, flow away
     """
 
     elastic: ContactSolver
@@ -175,6 +189,7 @@ class PlasticSolver:
     scale: Scale
     absent: BoolArray
     ways: Array | None = None
+    flowing: float = _FLOWING
 
     @property
     def name(self) -> str:
@@ -228,6 +243,10 @@ class PlasticSolver:
         elastic = self.elastic.moving(ways, interface, scale)
         return replace(self, elastic=elastic, interface=interface, scale=scale, ways=ways)
 
+    def farther(self) -> PlasticSolver:
+        """Bodies that flow longer before they are given up."""
+        return replace(self, flowing=_FARTHER * self.flowing)
+
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment by backward Euler, contact and flow rule at its end."""
         rounds, system, bodies = _Rounds(), increment.system, self.tangents.yielding
@@ -245,8 +264,8 @@ class PlasticSolver:
             with increment.clock.phase("plasticity"):
                 after = bodies.respond(T @ answer.free + increment.imposed, old, heat)
                 linear = after
-                lack = self._lack(increment, answer, after)
-                step = 1.0
+                left = self._left(increment, answer, after)
+                lack, step = self._lack(left), 1.0
                 if reached is not None:
                     way = LineSearch(bodies=bodies, increment=increment, old=old, heat=heat, one=reached[0], two=answer)
                     most = _MAX_LEAP * max(rounds.lengths[0], float(np.abs(reached[0].free).max(initial=0.0)))
@@ -254,10 +273,11 @@ class PlasticSolver:
                         step, answer, after = way.cut(most / way.length)
                     elif not rounds.inputs and lack > max(_BALANCED, _SEARCH_FROM * rounds.last):
                         step, answer, after = way.shortened(reached[1], after)
-                    lack = lack if step == 1.0 else self._lack(increment, answer, after)
+                    left = left if step == 1.0 else self._left(increment, answer, after)
+                    lack = lack if step == 1.0 else self._lack(left)
                 before = state.displacement[system.constraints.leaders] if reached is None else reached[0].free
             kept = rounds.last
-            rounds.add(lack, step, Mechanism(answer.free - before, answer.forces))
+            rounds.add(lack, left, step, Mechanism(answer.free - before, answer.forces))
             asked = _LACK_IN_ROUNDS * kept <= _BALANCED or len(rounds.steps) == 1  # of contact for all its digits
             parted = answer.lost > _FITTING * self.scale.length
             softest = tangent.S is not None and not rounds.least
@@ -265,7 +285,7 @@ class PlasticSolver:
             if balanced and (not parted or (asked and not softest)):
                 return self._settled(increment, old, answer, after, rounds)
             far = not np.isfinite(lack) or np.abs(answer.free).max(initial=0.0) > _MAX_LENGTHS * self.scale.length
-            if rounds.runs_away or far or len(rounds.steps) >= _MAX_ROUNDS:
+            if rounds.run_away(self.flowing) or far or len(rounds.steps) >= _MAX_ROUNDS:
                 words = f"plastic flow did not settle in {len(rounds.steps)} rounds ({lack:.1e} of the forces left)"
                 return replace(answer, outcome=Outcome.NOT_FOUND, message=words, mechanisms=rounds.mechanisms)
             reached = answer, after
@@ -309,11 +329,15 @@ class PlasticSolver:
             forces = forces - tangent.S @ (constraints.transform @ answer.free)
         return constraints.on_free(forces)
 
-    def _lack(self, increment: Increment, answer: IncrementAnswer, after: PlasticResponse) -> float:
-        """What equilibrium lacks at an answer, of the size of the forces."""
+    def _left(self, increment: Increment, answer: IncrementAnswer, after: PlasticResponse) -> Array:
+        """(z,) What equilibrium lacks at an answer, force."""
         system, T = increment.system, increment.system.constraints.transform
         forces = after.state.forces + system.interface.on_bodies(answer.forces) - system.K @ (T @ answer.free)
-        return float(np.abs(increment.f + system.constraints.on_free(forces)).max(initial=0.0)) / system.scale.force
+        return increment.f + system.constraints.on_free(forces)
+
+    def _lack(self, left: Array) -> float:
+        """What equilibrium lacks, (z,), of the size of the forces."""
+        return float(np.abs(left).max(initial=0.0)) / self.scale.force
 
     def _pays(self, tangent: _Tangent, rounds: _Rounds) -> bool:
         """Whether a new tangent is worth its factorisation."""

@@ -7,7 +7,7 @@ tolerance.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import ceil
 
@@ -16,12 +16,15 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.collapse import Collapse, collapse
 from signorini.engine.first_yield import AT_ONCE, elastic_part, flows_at_once, points_of
+from signorini.engine.increment import Mechanism
 from signorini.engine.increments import advance, follow_increments
+from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, StepPart, joined, keep, reached
 from signorini.errors import SolveFailed, told
 from signorini.model.step import Step
 from signorini.outcome import Outcome
+from signorini.solution.state import LoadPoint, State
 
 TOLERANCE = 1e-2
 """Of ``increments = "auto"`` where bodies yield, if the step gives none: backward Euler is of first order."""
@@ -113,12 +116,39 @@ def _increments(part: StepPart, number: int) -> FollowedPart:
             failure.hopeless = True
             raise
         behind = reached(failure)
-        done = 0 if behind is None else len(behind.snapshots)
-        start, end = (part.before.point.towards(part.end, k / number) for k in (done, done + 1))
-        found = collapse(part.prepared, start, end, failure.mechanisms)
+        done, state = (0, part.before) if behind is None else (len(behind.snapshots), behind.after)
+        end = part.before.point.towards(part.end, (done + 1) / number)
+        found = _mechanism(part, state, (state.point, end), failure.mechanisms)
         if found is None:
             raise
         raise _collapsed(part, *_tightened(part, found, (done + found.part) / number), number) from failure
+
+
+def _mechanism(
+    part: StepPart,
+    state: State,
+    ends: tuple[LoadPoint, LoadPoint],
+    motions: Sequence[Mechanism],
+    reached: float = 1.0,
+) -> Collapse | None:
+    """What bounds the load on the way between two loads; where no motion does, bodies flow farther to find one.
+
+    Parameters
+    ----------
+    part, state : of the way, and where it begins
+    ends : both loads
+    motions : in which flow ran away
+    reached : part of the way at whose end they were found
+    """
+    found, prepared = collapse(part.prepared, *ends, motions), part.prepared
+    if found is not None or not isinstance(prepared.solver, PlasticSolver):
+        return found
+    patient = replace(prepared, solver=prepared.solver.farther())
+    try:
+        advance(patient, state, ends[0].towards(ends[1], reached), part.where)
+    except SolveFailed as failure:
+        return collapse(prepared, *ends, failure.mechanisms)
+    return None
 
 
 def _tightened(part: StepPart, found: Collapse, fraction: float) -> tuple[Collapse, float]:
@@ -135,7 +165,8 @@ def _tightened(part: StepPart, found: Collapse, fraction: float) -> tuple[Collap
         try:
             advance(part.prepared, part.before, part.before.point.towards(part.end, fraction), part.where)
         except SolveFailed as failure:
-            again = collapse(part.prepared, part.before.point, part.end, failure.mechanisms)
+            ends = part.before.point, part.end
+            again = _mechanism(part, part.before, ends, failure.mechanisms, fraction)
         else:
             break
         if again is None or again.part >= fraction:
