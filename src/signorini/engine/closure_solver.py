@@ -10,14 +10,13 @@ they go no farther than one line a round, and at last one pair at a time, which 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import NamedTuple, Protocol, Self
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
 from signorini.engine.increment import Increment, IncrementAnswer
-from signorini.engine.multipliers import MultiplierSolver
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.errors import told
 from signorini.interface.interface import Interface
@@ -73,6 +72,18 @@ class Lines(NamedTuple):
         return self._replace(line=self.line - below + above)
 
 
+class CompliantSolver(ContactSolver, Protocol):
+    """Bodies whose pairs have a compliance each, which may be another."""
+
+    def closing(self, compliance: Array, rest: Array) -> Self:
+        """Bodies whose interface closes otherwise along its normals; nothing sparse is factorised again.
+
+        Parameters
+        ----------
+        compliance, rest : (n,) length per force, and what it has closed without force, length
+        """
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ClosureSolver:
     """Increments of contact whose pairs close by a law, through the one door of `ContactSolver`.
@@ -82,7 +93,7 @@ class ClosureSolver:
     bodies : the same with an interface of one compliance a pair
     """
 
-    bodies: CondensedSolver | MultiplierSolver
+    bodies: CompliantSolver
 
     @property
     def name(self) -> str:
@@ -128,15 +139,20 @@ class ClosureSolver:
         """
         return replace(self, bodies=self.bodies.moving(ways, interface, scale))
 
-    def on(self, lines: Lines, area: Array) -> CondensedSolver | MultiplierSolver:
+    def paired(self, elastic: CondensedSolver, interface: Interface) -> ClosureSolver:  # noqa: ARG002
+        """Bodies with other pairs, see `ContactSolver.paired`.
+
+        Parameters
+        ----------
+        elastic : the same bodies with these pairs
+        interface : not looked at
+        """
+        return replace(self, bodies=elastic)
+
+    def on(self, lines: Lines, area: Array) -> CompliantSolver:
         """Bodies with pairs on given lines; ``area`` (n,) forces per pressure."""
-        bodies = self.bodies
         compliance, rest = lines.closure.of_lines(lines.line)
-        if isinstance(bodies, MultiplierSolver):
-            own = bodies.bodies.pairs
-            return replace(bodies, bodies=bodies.bodies.closing((compliance / area)[own], rest[own]))
-        condensed = bodies.condensed.closing((compliance / area)[bodies.active])
-        return replace(bodies, condensed=condensed, law=replace(bodies.law, image=condensed.image), rest=rest)
+        return self.bodies.closing(compliance / area, rest)
 
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment on lines that its pressures lie on."""
@@ -160,12 +176,6 @@ class ClosureSolver:
             if lines.line.tobytes() in seen:
                 care, seen = care + 1, set()
         return replace(answer, outcome=Outcome.NOT_FOUND, message=_NOT_SETTLED, trace=tuple(tried))
-
-
-def closing(solver: ContactSolver) -> ClosureSolver:
-    """The solver for pairs that close by a law, of one for pairs of one compliance each."""
-    assert isinstance(solver, CondensedSolver | MultiplierSolver)
-    return ClosureSolver(bodies=solver)
 
 
 def _unproved(answer: IncrementAnswer) -> IncrementAnswer:

@@ -16,6 +16,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray
 from signorini.engine.examine import Examined
 from signorini.engine.increment import Increment, IncrementAnswer
+from signorini.engine.solver import CondensedSolver
 from signorini.errors import InputError
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
@@ -86,6 +87,26 @@ class MultiplierSolver:
         ways, interface, scale : not looked at
         """
         return self
+
+    def paired(self, elastic: CondensedSolver, interface: Interface) -> CondensedSolver:  # noqa: ARG002
+        """Bodies with other pairs, see `ContactSolver.paired`: those are they.
+
+        Parameters
+        ----------
+        elastic : the same bodies with these pairs
+        interface : not looked at
+        """
+        return elastic
+
+    def closing(self, compliance: Array, rest: Array) -> MultiplierSolver:
+        """Bodies whose interface closes otherwise along its normals.
+
+        Parameters
+        ----------
+        compliance, rest : (n,) length per force, and what it has closed without force, length
+        """
+        own = self.bodies.pairs
+        return replace(self, bodies=self.bodies.closing(compliance[own], rest[own]))
 
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment, from an answer near it or from as far ahead of the state as the last increment led."""

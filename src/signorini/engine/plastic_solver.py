@@ -222,7 +222,7 @@ class PlasticSolver:
         elastic = self.elastic.under(interface, scale, absent)
         return replace(self, elastic=elastic, interface=interface, scale=scale, absent=absent)
 
-    def paired(self, elastic: ContactSolver, interface: Interface) -> PlasticSolver:
+    def paired(self, elastic: CondensedSolver, interface: Interface) -> PlasticSolver:
         """Bodies with other pairs, of sides that have slid.
 
         Parameters

@@ -15,7 +15,7 @@ from signorini.condense.condensed import Condensed
 from signorini.condense.ties import Ties
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_model
-from signorini.engine.closure_solver import closing
+from signorini.engine.closure_solver import ClosureSolver
 from signorini.engine.condensation import condense_bodies, free_bodies
 from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
 from signorini.engine.memory_check import iterates, refuse_unassembled
@@ -347,7 +347,7 @@ def _made(
     softness, condensed, plans = 0.0, known, Plans() if yields else None
     with clock.phase("assembly"):
         reduced = reduced_stiffness(K, examined.constraints.transform) if yields or known is None else None
-    solver: ContactSolver
+    solver: CondensedSolver | MultiplierSolver
     if reduced is not None and condensed is None:
         with clock.phase("assembly"):
             bodies = free_bodies(examined, reduced)
@@ -366,7 +366,7 @@ def _made(
         **data,
         K=K,
         absent=np.zeros(len(interface), bool),
-        solver=solver if interface.closure is None else closing(solver),
+        solver=solver if interface.closure is None else ClosureSolver(bodies=solver),
         clock=clock,
         backend=backend,
         candidates=candidates,

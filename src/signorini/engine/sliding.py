@@ -21,10 +21,9 @@ import scipy.sparse as sp
 from signorini.arrays import Array
 from signorini.engine.handing_over import Handover, supported, with_pairs
 from signorini.engine.increments import applied
-from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, rubbing_of_work, set_loose
-from signorini.engine.solver import CondensedSolver, ContactSolver
+from signorini.engine.solver import CondensedSolver
 from signorini.engine.step_parts import FollowedPart, StepPart, ending, joined, keep, reached
 from signorini.engine.turning import first_share, refuse_turned, with_turned_loads
 from signorini.errors import InputError, Interrupted, SolveFailed
@@ -354,9 +353,8 @@ def paired(prepared: Prepared, interface: Interface) -> Prepared:
     condensed = prepared.paths.condensed.paired(B, interface, prepared.scale.stiffness)
     if prepared.absent.any():
         condensed = condensed.among(~prepared.absent)
-    solver: ContactSolver = CondensedSolver.of(condensed, interface, prepared.scale, prepared.settings)
-    if isinstance(prepared.solver, PlasticSolver):
-        solver = prepared.solver.paired(solver, interface)
+    elastic = CondensedSolver.of(condensed, interface, prepared.scale, prepared.settings)
+    solver = prepared.solver.paired(elastic, interface)
     wearing = None if prepared.wearing is None else worn_sides(prepared.space, prepared.model, interface)
     return replace(prepared, interface=interface, solver=solver, wearing=wearing)
 

@@ -79,6 +79,15 @@ class ContactSolver(Protocol):
         interface, scale : as of `under`
         """
 
+    def paired(self, elastic: CondensedSolver, interface: Interface) -> ContactSolver:
+        """Bodies with other pairs, of sides that have slid.
+
+        Parameters
+        ----------
+        elastic : the same bodies with these pairs, before any of them yields
+        interface : with as many pairs, in the same order
+        """
+
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment."""
 
@@ -221,6 +230,26 @@ class CondensedSolver:
             lost=lost,
             escape=None if result.escape is None or not law.floating else self.floating(result.escape),
         )
+
+    def paired(self, elastic: CondensedSolver, interface: Interface) -> CondensedSolver:  # noqa: ARG002
+        """Bodies with other pairs, see `ContactSolver.paired`: those are they.
+
+        Parameters
+        ----------
+        elastic : the same bodies with these pairs
+        interface : not looked at
+        """
+        return elastic
+
+    def closing(self, compliance: Array, rest: Array) -> CondensedSolver:
+        """Bodies whose interface closes otherwise along its normals; nothing is factorised again.
+
+        Parameters
+        ----------
+        compliance, rest : (n,) length per force, and what it has closed without force, length
+        """
+        condensed = self.condensed.closing(compliance[self.active])
+        return replace(self, condensed=condensed, law=replace(self.law, image=condensed.image), rest=rest)
 
     def rested(self, offset: Array) -> Array:
         """(d, n) Motions of the pairs that loads do not cause, and what the interface has closed without force."""

@@ -13,7 +13,7 @@ from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import condense
 from signorini.condense.kept import Kept
-from signorini.engine.closure_solver import closing
+from signorini.engine.closure_solver import ClosureSolver
 from signorini.engine.condensation import free_bodies
 from signorini.engine.examine import Examined
 from signorini.engine.multipliers import PATIENCE, make_multipliers
@@ -21,7 +21,6 @@ from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import ITERATIVE
-from signorini.linalg.multifrontal import MultifrontalFactorisation
 from signorini.linalg.one_pattern import on_one_pattern
 from signorini.linalg.plan import Plans
 from signorini.plasticity.bodies import PlasticResponse, YieldingBodies
@@ -118,7 +117,7 @@ class TangentBodies:
         if self.whole:
             found = make_multipliers(examined, reduced, self.bodies.B, self.near, settings)
             found = replace(found, bodies=replace(found.bodies, patience=PATIENCE))
-            return found if examined.interface.closure is None else closing(found)
+            return found if examined.interface.closure is None else ClosureSolver(bodies=found)
         scale = examined.scale
         condensed = condense(
             self.bodies._replace(K=reduced),
@@ -131,7 +130,7 @@ class TangentBodies:
             plans=self.plans,
         )
         made = CondensedSolver.of(condensed, examined.interface, scale, settings)
-        return made if examined.interface.closure is None else closing(made)
+        return made if examined.interface.closure is None else ClosureSolver(bodies=made)
 
     def substitution_share(self, solver: ContactSolver, operations: float) -> float | None:
         """Price of a round on the factor at hand over that of one on a new factor; None: not known, or in the plane.
@@ -144,8 +143,8 @@ class TangentBodies:
         paths = solver.paths
         if paths is None or self.examined.space.dimension == 2:
             return None
-        factor = paths.condensed.factorisation
-        if not isinstance(factor, MultifrontalFactorisation):
+        plan = paths.condensed.factorisation.plan
+        if plan is None:
             return None
-        kept = operations * factor.plan.nnz_factor
-        return kept / (kept + factor.plan.flops)
+        kept = operations * plan.nnz_factor
+        return kept / (kept + plan.flops)

@@ -58,6 +58,7 @@ class PardisoFactorisation:
     solver: Any = field(repr=False)
     condensed: Array = field(repr=False)
     name: str = "pardiso"
+    plan: None = None
 
     def schur(self) -> Array:
         """Give S, (m, m), read-only."""

@@ -17,6 +17,7 @@ from typing import Protocol, runtime_checkable
 
 from signorini.arrays import Array
 from signorini.errors import SignoriniError
+from signorini.linalg.plan import Plan
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,10 @@ class Factorisation(Protocol):
     @property
     def m(self) -> int:
         """Unknowns on the interface, not eliminated; may be 0."""
+
+    @property
+    def plan(self) -> Plan | None:
+        """Order, fronts and cost; None where the back end keeps them to itself."""
 
     def schur(self) -> Array:
         """Give the condensed stiffness ``S = K_cc - K_ci K_ii^-1 K_ic``, (m, m), in the order of the interface."""

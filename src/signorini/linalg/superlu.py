@@ -45,6 +45,7 @@ class SuperLUFactorisation:
     lifted: Array = field(repr=False)
     condensed: Array = field(repr=False)
     name: str = "superlu"
+    plan: None = None
 
     def schur(self) -> Array:
         """Give S, (m, m)."""
