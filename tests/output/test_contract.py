@@ -240,6 +240,7 @@ def test_series(results: tuple[Results, dict[str, Any]]) -> None:
     expected |= ({"solution.pvd"} if names else set()) | ({"contact.vtu"} if found.solid else set())
     expected |= {"contact.pvd", "fields"} if names and found.solid else set()
     expected |= {"fields"} if any("at" in step for step in deck.get("step", [])) else set()
+    expected |= {"fatigue.csv"} if "fatigue" in deck else set()
     assert {file.name for file in found.folder.iterdir()} == expected
     if names:
         text = (found.folder / "solution.pvd").read_text()
