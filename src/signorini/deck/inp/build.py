@@ -285,6 +285,12 @@ def _notes(
         notes.append(_FOLLOWING_PAIRS)
     if any(pair.contact.tied and pair.card.keyword == "CONTACT PAIR" for pair in contacts):
         notes.append("surfaces of a TIED contact pair are tied exactly: a stiffness given with it is not used")
+    general = [pair.contact for pair in contacts if pair.card.keyword == "CONTACT"]
+    if general:
+        pairs = ", ".join(f"{contact.nonmortar} on {contact.mortar}" for contact in general)
+        notes.append(f"*CONTACT: pairs are found by closeness ({pairs}); no part touches itself")
+        if not any(contact.slides for contact in general):
+            notes.append("*CONTACT: initial overlaps are removed without strain, as Abaqus does; gaps stay")
     if any(card.keyword == "VISCO" for step in steps for card in step.cards):
         notes.append("*VISCO is taken as *STATIC: no material of the deck creeps")
     if small_strain and any(step.nlgeom for step in steps):

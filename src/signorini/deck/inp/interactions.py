@@ -52,8 +52,8 @@ class Interaction:
 
     @property
     def name(self) -> str:
-        """Name as the deck spells it."""
-        return self.card.value("NAME")
+        """Name as the deck spells it; empty of a law that no keyword begins."""
+        return self.card.parameters.get("NAME", "")
 
 
 def make_interactions(cards: Sequence[Card], refusals: Refusals) -> dict[str, Interaction]:

@@ -60,7 +60,29 @@ def make_contacts(cards: Sequence[Card], known: Known, *, large: bool) -> list[P
             raise _no_pair(card, (slave_name, master_name))
     for card, slave, master, reach in _ties(cards, known):
         found.append(_pair(card, slave, master, found, None, **reach))
-    return found
+    return [*found, *_general(cards, known, found, large=large)]
+
+
+def _general(cards: Sequence[Card], known: Known, others: Sequence[Pair], *, large: bool) -> Iterator[Pair]:
+    """Pairs of general contact beside the others; overlaps are removed, as in Abaqus, unless the sides slide far."""
+    if not any(of_keyword(cards, "CONTACT")):
+        return
+    from signorini.deck.inp.general import find_facing
+
+    taken = [
+        (
+            known.surfaces.find(pair.contact.nonmortar, pair.card).keys,
+            known.surfaces.find(str(pair.contact.mortar), pair.card).keys,
+        )
+        for pair in others
+    ]
+    found = list(others)
+    for facing in find_facing(cards, known, taken):
+        law = facing.law or Interaction(card=facing.card)
+        follows = large and law.closure is None
+        given: dict[str, Any] = {} if law.tied else {"sliding": "finite"} if follows else {"adjust": 0.0}
+        found.append(_pair(facing.card, facing.slave, facing.master, found, law, **_compliances(law), **given))
+        yield found[-1]
 
 
 def _pairs_of(
@@ -79,18 +101,24 @@ def _pairs_of(
         given = _adjusted(card, slave, known)
         if (slave.name, master.name) in clearances:
             given = {"gap": clearances[slave.name, master.name][0]}
-        if not law.tied:
-            given |= {
-                "normal_compliance": law.normal_compliance,
-                "tangential_compliance": law.tangential_compliance,
-                "shear_limit": law.shear_limit,
-                "closure": law.closure,
-            }
-            stays = law.closure is not None or given.keys() & {"gap", "adjust"} or "SMALL SLIDING" in card.parameters
-            if large and not stays:
-                given["sliding"] = "finite"
+        stays = law.tied or law.closure is not None or given.keys() & {"gap", "adjust"}
+        if large and not stays and "SMALL SLIDING" not in card.parameters:
+            given["sliding"] = "finite"
+        given |= _compliances(law)
         found.append(_pair(card.at(row), slave, master, [*before, *found], law, **given))
     return found
+
+
+def _compliances(law: Interaction) -> dict[str, Any]:
+    """What a law of contact says of its pairs besides friction; nothing of tied ones."""
+    if law.tied:
+        return {}
+    return {
+        "normal_compliance": law.normal_compliance,
+        "tangential_compliance": law.tangential_compliance,
+        "shear_limit": law.shear_limit,
+        "closure": law.closure,
+    }
 
 
 def _ties(cards: Sequence[Card], known: Known) -> Iterator[tuple[Card, DeckSurface, DeckSurface, dict[str, Any]]]:

@@ -79,6 +79,10 @@ class ElementFaces:
         keys = (FACES * elements[:, None] + np.arange(FACES)).ravel()
         return keys[self.outer[keys]]
 
+    def all_outer(self) -> IntArray:
+        """Keys of all faces that no other element has."""
+        return np.nonzero(self.outer)[0]
+
     def under(self, elements: IntArray) -> IntArray:
         """Keys of the faces of cells that have the nodes of faces or lines among the elements."""
         wanted = _padded([group.nodes[np.isin(group.index, elements)] for group in self.grid.skins])
