@@ -158,9 +158,7 @@ class Solution(History):
         """
         last, fields = self.last, self._fields
         given, plastic = np.asarray(points, float), fields.plastic_strains(last)
-        return along(
-            fields.space, self.model, last.displacement, given, body=body, factors=last.factors, plastic=plastic
-        )
+        return along(*fields.on(last), last.displacement, given, body=body, factors=last.factors, plastic=plastic)
 
     def stress_history(
         self,

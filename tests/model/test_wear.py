@@ -81,6 +81,6 @@ def test_a_deck_says_what_a_model_does(tmp_path: Path):
     with pytest.raises(sg.InputError) as caught:
         sg.read(path)
     assert (
-        "contact[0].wear.coeficient: unknown key; did you mean 'coefficient'? Known: coefficient, energy, mortar"
-        in str(caught.value)
+        "contact[0].wear.coeficient: unknown key; did you mean 'coefficient'? Known: coefficient, energy, mortar, "
+        "move_mesh" in str(caught.value)
     )

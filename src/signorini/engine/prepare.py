@@ -70,6 +70,7 @@ class Prepared(Examined, DiscreteModel):
     resting : (dofs,) rigid displacement of bodies that rest, see `engine.floating_bodies`; empty where none does
     flowed : (dofs,) forces of plastic strain that does not change, so that bodies answer as elastic ones; else empty
     wearing : sides that wear, as the pairs see them; None where none does
+    meshed : the same on the mesh as it was given, where it has moved with what is worn; None where it has not
     plans, reduced : of the factorisation, and (z, z) stiffness, for tangents of bodies that yield; None where none does
     kept : the last that was factorised, by supports released and candidates, to be found again; None: nothing is kept
     """
@@ -86,6 +87,7 @@ class Prepared(Examined, DiscreteModel):
     resting: Array = field(default_factory=lambda: np.zeros(0))
     flowed: Array = field(default_factory=lambda: np.zeros(0))
     wearing: WornSides | None = None
+    meshed: Prepared | None = None
     plans: Plans | None = None
     reduced: sp.csr_array | None = None
     kept: dict[tuple[frozenset[str], bytes], Condensed] | None = None
@@ -147,15 +149,13 @@ class Prepared(Examined, DiscreteModel):
         posed = replace(self, constraints=replace(self.constraints, prescribed=self.posed))
         key = self.released, candidates.tobytes()
         known = self.kept.get(key) if self.kept else None
-        made = _made(posed, self.K, candidates, self.backend, self.settings, self.clock, known)
+        made = condensed_model(posed, self.K, candidates, self.backend, self.settings, self.clock, known)
         if known is None and self.kept is not None and made.solver.paths is not None:
             if len(self.kept) >= _KEPT:
                 self.kept.pop(next(iter(self.kept)))
             self.kept[key] = made.solver.paths.condensed
-        return _flowing(
-            replace(made, released=self.released, multiplied=self.multiplied, kept=self.kept, wearing=self.wearing),
-            self.yielding,
-        )
+        same = {name: getattr(self, name) for name in ("released", "multiplied", "kept", "wearing", "meshed")}
+        return _flowing(replace(made, **same), self.yielding)
 
     def keeping(self) -> Prepared:
         """To be solved many times: what steps factorise for other supports or pairs is kept, the last few."""
@@ -202,7 +202,7 @@ class Prepared(Examined, DiscreteModel):
         """(n,) What sides that are worn as in a state add to the gaps, length."""
         if self.wearing is None or state.wear is None:
             return np.zeros(len(self.interface))
-        return np.asarray(self.wearing.gap @ state.wear.depth, dtype=np.float64)
+        return np.asarray(self.wearing.gap @ state.wear.beyond, dtype=np.float64)
 
     @property
     def watched(self) -> bool:
@@ -297,11 +297,9 @@ def prepare(
     with clock.phase("assembly"):
         examined = examine(model, start=start)
         refuse_unassembled(examined.model)
-        K = stiffness(examined.space, examined.model)
-        for springs in examined.constraints.springs.values():
-            K = sp.csr_array(K + springs.T @ springs)
+        K = whole_stiffness(examined)
         near = candidate_pairs(examined, examined.loading, None if start is None else start.near)
-    made = _made(examined, K, near, backend, settings or SolverSettings(), clock)
+    made = condensed_model(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
     wearing = worn_sides(made.space, made.model, made.interface) if model.wears else None
     if wearing is not None and made.solver.paths is None:
@@ -324,7 +322,15 @@ def _flowing(made: Prepared, yielding: YieldingBodies | None) -> Prepared:
     return replace(made, yielding=yielding, solver=solver)
 
 
-def _made(
+def whole_stiffness(examined: Examined) -> sp.csr_array:
+    """(dofs, dofs) Of bodies and elastic foundations, supports not applied."""
+    K = stiffness(examined.space, examined.model)
+    for springs in examined.constraints.springs.values():
+        K = sp.csr_array(K + springs.T @ springs)
+    return K
+
+
+def condensed_model(
     examined: Examined,
     K: sp.csr_array,
     candidates: BoolArray,

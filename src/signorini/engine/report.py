@@ -51,12 +51,14 @@ def step_result(
     finished : whether it goes to the end of the step
     """
     before, state = followed.before, followed.after
+    stored_before = stored_energy(prepared, before)
+    instants_of, prepared = prepared, followed.prepared or prepared
     heat = thermal_energy(prepared) if prepared.model.heats else _no_heat
-    instants = tuple(_instants(prepared, followed, cycle_ends, heat))
+    instants = tuple(_instants(instants_of, followed, cycle_ends, heat))
     cycles = followed.cycles or (make_cycles(followed, cycle_ends) if len(cycle_ends) > 1 else ())
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
     stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
-    spent = stored - stored_energy(prepared, before) + float(dissipated) + state.released - before.released
+    spent = stored - stored_before + float(dissipated) + state.released - before.released
     spent += state.plastic_work - before.plastic_work
     layers = interface_energy(prepared, state)
     loads, held = _outside(prepared, followed)
@@ -238,8 +240,9 @@ def _instants(
     for snapshot in followed.snapshots:
         slip = snapshot.state.slip
         now, shown = prepared, surfaces
-        if snapshot.interface is not None:
-            now = replace(prepared, interface=snapshot.interface)
+        if snapshot.interface is not None or snapshot.prepared is not None:
+            now = snapshot.prepared or prepared
+            now = now if snapshot.interface is None else replace(now, interface=snapshot.interface)
             shown = [_surface(now, i) for i in range(len(prepared.model.contacts))]
         sliding = sliding + np.linalg.norm(slip - last, axis=0)
         if wear is not snapshot.state.wear and snapshot.state.wear is not None and followed.before.wear is not None:
@@ -264,6 +267,9 @@ def _instants(
                 followed.after if snapshot is end else snapshot.state,
                 whole=snapshot is end or snapshot.kept,
             ),
+            places=frozen(now.space.mesh.points)
+            if now.meshed is not None and (snapshot is end or snapshot.kept)
+            else None,
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:
             low, high, cycle = slip, slip, cycle + 1
@@ -288,7 +294,7 @@ def _surface(prepared: Prepared, i: int) -> _Surface:
         "mortar": interface.sides[i].mortar,
         "coupling": interface.sides[i].coupling,
         "node": frozen(interface.node[own], np.int64),
-        "points": frozen(prepared.model.mesh.points[interface.node[own]]),
+        "points": frozen((prepared.meshed or prepared).model.mesh.points[interface.node[own]]),
         "normals": frozen(interface.normals[own]),
         "tangents": frozen(interface.tangents[own, 0] if interface.directions == 2 else interface.tangents[own]),
         "levers": frozen(interface.moments.reshape(interface.directions, len(interface), -1)[:, own].swapaxes(0, 1)),
@@ -345,12 +351,13 @@ def _contact_wear(prepared: Prepared, surface: _Surface, state: State) -> Contac
         depth=frozen(seen[0]),
         mortar_depth=frozen(seen[1]),
         node=frozen(sides.node[corners], np.int64),
-        points=frozen(prepared.model.mesh.points[sides.node[corners]]),
+        points=frozen((prepared.meshed or prepared).model.mesh.points[sides.node[corners]]),
         depths=frozen(wear.depth[corners]),
         on_mortar=mortar,
         volume=(float(wear.volume[corners][~mortar].sum()), float(wear.volume[corners][mortar].sum())),
         distance=frozen(wear.distance[surface.own]),
         cycles=wear.cycles,
+        mesh_moves=wear.moves,
     )
 
 

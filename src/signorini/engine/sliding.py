@@ -138,9 +138,9 @@ class _Walk:
         return np.asarray(gap + self.worn_gap(prepared, t) - nominal.gap @ self.depth(t))
 
     def depth(self, t: float) -> Array:
-        """(m,) Worn depth at a fraction of the part; empty where no side wears."""
+        """(m,) Worn depth beyond the mesh at a fraction of the part; empty where no side wears."""
         wear = self.part.before.wear
-        return np.zeros(0) if wear is None else wear.depth - (1.0 - t) * self.lost
+        return np.zeros(0) if wear is None else wear.beyond - (1.0 - t) * self.lost
 
     def worn_gap(self, prepared: Prepared, t: float) -> Array | float:
         """(n,) What pairs feel of it there."""

@@ -107,8 +107,8 @@ class SlidingCycles:
     def begin(self, state: State) -> StrideCycle:
         """A whole state on the path: behind what its sides have lost."""
         home, wear = self._home, wear_of(state)
-        gap = home.gaps[1] + home.seen @ wear.depth
-        now = path_state(self.prepared, replace(state, point=_between_worn(home, wear.depth)))
+        gap = home.gaps[1] + home.seen @ wear.beyond
+        now = path_state(self.prepared, replace(state, point=_between_worn(home, wear.beyond)))
         return StrideCycle(now=now, wear=wear, gap=gap)
 
     def cycle(self, at: PathCycle, number: int) -> FollowedCycle | None:  # noqa: ARG002
@@ -118,7 +118,7 @@ class SlidingCycles:
         pairs, total, volume = self._home.pairs(at.now, at.gap, 1), None, np.zeros(len(self.sides))
         self.followed, self._lost, strides = self.followed + 1, False, list[tuple[Track, Gone]]()
         for link in self._links:
-            gone = self._stride(link, pairs, at.wear.depth)
+            gone = self._stride(link, pairs, at.wear.beyond)
             home = link.next is self._home
             self._lost = gone is not None and not home and self._drifted(link.next, gone.pairs)
             if gone is None or self._lost:
@@ -150,7 +150,7 @@ class SlidingCycles:
         """Sides that lose material at the loads of the moment, to a state of wear; None where no path leads there."""
         assert isinstance(at, StrideCycle)
         home = self._home
-        gap = home.gaps[1] + home.seen @ wear.depth
+        gap = home.gaps[1] + home.seen @ wear.beyond
         segment = self.prepared.paths.follow(at.now, home.loads[1] + self._of_gaps(home, gap), None, lambda _: None)
         if not segment.followed:
             return None
@@ -179,7 +179,7 @@ class SlidingCycles:
         point : of the loads there, as pairs see gaps before anything moved
         """
         assert isinstance(at, StrideCycle)
-        here = recovered(self.prepared, last, _between_worn(self._home, at.wear.depth), at.now)
+        here = recovered(self.prepared, last, _between_worn(self._home, at.wear.beyond), at.now)
         here = replace(here, released=last.released + at.energy + at.handed)
         here = balanced(self.prepared, last, here, at.spent)
         energy = wear_of(last).energy + at.energy

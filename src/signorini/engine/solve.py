@@ -15,6 +15,7 @@ from signorini.engine.contact_changes import pressed_gap, relaxed, staged, switc
 from signorini.engine.fatigue import with_fatigue
 from signorini.engine.increments import measured
 from signorini.engine.memory_check import refuse_fields
+from signorini.engine.moved_mesh import on_worn_mesh, with_geometry
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.report import step_result
 from signorini.engine.sliding import follow_sliding
@@ -96,6 +97,8 @@ def solve_prepared(
     refuse_fields(prepared.model)
     if wellposed and prepared.model.slides:
         raise InputError("does not know contacts that slide far; expected it without them", where=("wellposed",))
+    if start is not None and start.state.wear is not None and start.state.wear.taken.any():
+        prepared = on_worn_mesh(prepared, start.state.wear.taken)
     begin = _first(prepared) if start is None else _fitting(prepared, start)
     history = _follow(prepared, begin, wellposed, after_step)
     if prepared.model.fatigue and history.solved:
@@ -178,7 +181,8 @@ def _follow(
     Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
     nothing was found without them, the step is solved again with all pairs, and so are those after it.
     """
-    model, interface, state, standing = prepared.model, prepared.interface, begin.state, begin.standing
+    given = prepared.meshed or prepared
+    model, interface, state, standing = given.model, given.interface, begin.state, begin.standing
     schedule = list(stages(model, factors=state.point.factors, before=standing))
     prepared.clock.expect(sum(_expected(stage) for stage in schedule))
     steps: list[StepResult] = []
@@ -207,6 +211,9 @@ def _follow(
             after = Checkpoint.of(model, interface, followed.after, stage.standing, loading, prepared.candidates)
             # at once, whenever an interruption comes
             steps, end, constraints = [*steps, result], after, now.constraints
+            if followed.prepared is not None:
+                nominal = with_geometry(prepared.interface, followed.prepared.interface)
+                prepared = followed.prepared.under(nominal, loading, prepared.absent)
             if after_step is not None and len(steps) < len(schedule):
                 words = f"{len(steps)} of {len(schedule)} steps are finished"
                 after_step(_history(prepared, Outcome.RUNNING, words, steps, end, loaded))
@@ -310,7 +317,7 @@ def _history(
     prepared: Prepared, status: Outcome, message: str, steps: list[StepResult], end: Checkpoint | None, loaded: bool
 ) -> History:
     return History(
-        model=prepared.model,
+        model=(prepared.meshed or prepared).model,
         status=status,
         message=message,
         steps=tuple(steps),

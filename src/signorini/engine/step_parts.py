@@ -140,7 +140,18 @@ class StepPart:
 
 
 What = Literal[
-    "start", "event", "increment", "asked", "segment", "jump", "landing", "change", "approach", "wear", "handover"
+    "start",
+    "event",
+    "increment",
+    "asked",
+    "segment",
+    "jump",
+    "landing",
+    "change",
+    "approach",
+    "wear",
+    "handover",
+    "mesh",
 ]
 
 
@@ -158,6 +169,7 @@ class Snapshot:
     kept : whether it is one of the results
     worked : whether it was recovered
     interface : the pairs, where they are not those of the model
+    prepared : the model, where its mesh has moved since the step began
     """
 
     number: int
@@ -168,6 +180,7 @@ class Snapshot:
     kept: bool = False
     worked: bool = True
     interface: Interface | None = None
+    prepared: Prepared | None = None
 
     @property
     def load_factor(self) -> float:
@@ -200,6 +213,7 @@ class FollowedPart:
     cycles : of sides that wear, as they were gone through; otherwise they are found in the snapshots
     turned_at : (dofs,) displacement at which loads were last seen from bodies that turn; empty where none does
     until : the same up to a fraction of it, where it is known without following it again
+    prepared : the model at its end, where its mesh has moved with what is worn; None where it has not
     """
 
     path: str
@@ -213,6 +227,7 @@ class FollowedPart:
     cycles: tuple[Cycle, ...] = ()
     turned_at: Array = field(default_factory=lambda: np.zeros(0))
     until: Callable[[float], FollowedPart] | None = None
+    prepared: Prepared | None = None
 
 
 def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool) -> FollowedPart:
@@ -248,6 +263,7 @@ def joined(behind: Sequence[FollowedPart]) -> FollowedPart:
         cycles=tuple(chain.from_iterable(followed.cycles for followed in behind)),
         turned_at=behind[-1].turned_at,
         until=behind[0].until if len(behind) == 1 else None,
+        prepared=next((part.prepared for part in reversed(behind) if part.prepared is not None), None),
     )
 
 

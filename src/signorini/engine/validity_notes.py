@@ -222,10 +222,12 @@ def wear_notes(prepared: Prepared, state: State) -> Iterator[str]:
         return
     for i in np.unique(sides.contact):
         own = sides.contact == i
-        deepest = float(wear.depth[own].max(initial=0.0))
-        if deepest == 0.0:
+        deepest = float(wear.beyond[own].max(initial=0.0))
+        if wear.depth[own].max(initial=0.0) == 0.0:
             continue
         words = "debris neither carries nor rubs, what is worn is gone"
+        if wear.taken[own].any():
+            words += f"; its mesh has moved with that, and bodies were condensed again, {wear.moves} times so far"
         width = float(np.median(sides.area[own & (sides.area > 0.0)])) / prepared.model.thickness
         if prepared.space.dimension == 2 and not prepared.model.axisymmetric and deepest > _DEEP * width:
             words += (

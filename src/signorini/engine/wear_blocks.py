@@ -113,7 +113,8 @@ class CycleBlocks:
     def __init__(
         self, paths: BlockPaths, correct: Correct, block: int | Literal["auto"], tolerance: float | None
     ) -> None:
-        self.paths, self.correct, self.tolerance = paths, correct, tolerance or TOLERANCE_OF_DEPTH
+        self.go_on(paths, correct)
+        self.tolerance = tolerance or TOLERANCE_OF_DEPTH
         self.most = None if block == "auto" else block
         self.blocks, self.singles, self.longest = 0, 0, 0
         self._known: FollowedCycle | None = None
@@ -121,17 +122,19 @@ class CycleBlocks:
         self._count, self._least = 1, _LEAST_BLOCK
         self._lost = 0
 
-    def next(self, paths: BlockPaths, at: PathCycle, behind: int, room: int) -> CycleBlock | None:
+    def go_on(self, paths: BlockPaths, correct: Correct) -> None:
+        """From here on with cycles that are followed otherwise, and their Newton step."""
+        self.paths, self.correct = paths, correct
+
+    def next(self, at: PathCycle, behind: int, room: int) -> CycleBlock | None:
         """The next block; None where its first cycle is to go by itself.
 
         Parameters
         ----------
-        paths : the cycles from here on
         at : where the step stands
         behind : cycles so far
         room : cycles to the next that is kept
         """
-        self.paths = paths
         found = self._given(at, behind, room) if self.most else self._automatic(at, behind, room)
         if found is not None:
             self.blocks, self.longest = self.blocks + 1, max(self.longest, found.count)

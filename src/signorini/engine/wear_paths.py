@@ -87,19 +87,16 @@ class WornPaths:
     start : the state before it
     end : the point at its end, between sides that are worn as they are before it
     stops : how increments are chosen in space; None: event by event
-
-    Attributes
-    ----------
     followed : number of cycles that were followed so far
     """
 
     def __init__(
-        self, prepared: Prepared, stage: Stage, start: State, end: LoadPoint, stops: PathSettings | None
+        self, prepared: Prepared, stage: Stage, start: State, end: LoadPoint, stops: PathSettings | None, followed: int
     ) -> None:
         assert prepared.wearing is not None
         self.prepared, self.stage, self.stops = prepared, stage, stops
         self.sides: WornSides = prepared.wearing
-        self.followed = 0
+        self.followed = followed
         self._depth = wear_of(start).depth
         m = stage.step.segments
 

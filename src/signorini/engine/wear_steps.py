@@ -20,6 +20,7 @@ from signorini.attempt import MethodRun
 from signorini.engine import stride_correction, wear_correction
 from signorini.engine.cycles import cycle_between
 from signorini.engine.events import stops_at
+from signorini.engine.moved_mesh import between_moved, deepest_wear, give_way
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose, worn
 from signorini.engine.sliding import Stride, follow_sliding
@@ -36,7 +37,7 @@ from signorini.engine.step_parts import (
     straight_parts,
 )
 from signorini.engine.ways import SPACE_INCREMENTS, follow_part
-from signorini.engine.wear_blocks import CycleBlock, CycleBlocks
+from signorini.engine.wear_blocks import Correct, CycleBlock, CycleBlocks
 from signorini.engine.wear_paths import FollowedCycle, PathCycle, WornPaths
 from signorini.errors import SolveFailed
 from signorini.interface.worn_sides import WornSides
@@ -71,6 +72,7 @@ def follow_wearing(
         if stage.step.block is None:
             for number in range(1, stage.step.repeat + 1):
                 walk.cycle(number)
+                walk.move_mesh(number)
         else:
             walk.blocks()
     except (SolveFailed, KeyboardInterrupt) as stop:
@@ -97,6 +99,8 @@ class _Walk:
         self.at: PathCycle | None = None
         self.behind: list[FollowedPart] = []
         self.ends: list[float] = []
+        self._deepest = deepest_wear(prepared)
+        self._followed = 0
         self._recurring: SlidingCycles | None = None
         self._strides: list[Stride] = []
         self._since = 0
@@ -116,7 +120,7 @@ class _Walk:
         stops = None
         if self.prepared.interface.directions == 3 and step.path != "exact":
             stops = stops_at(SPACE_INCREMENTS, self.prepared.settings)
-        return WornPaths(self.prepared, self.stage, self.start, self.end, stops)
+        return WornPaths(self.prepared, self.stage, self.start, self.end, stops, self._followed)
 
     def cycle(self, number: int, *, anew: bool = False) -> FollowedCycle | None:
         """A cycle, and its wear at its end; given where it went on the condensed interface alone.
@@ -143,9 +147,11 @@ class _Walk:
 
     def _record(self, behind: int) -> None:
         """Cycles like the one that was followed go through its strides again; so many are behind."""
-        followed, self._recurring = 0 if self._recurring is None else self._recurring.followed, None
+        if self._recurring is not None:
+            self._followed = self._recurring.followed
+        self._recurring = None
         if self._may_recur and self._strides:
-            found = SlidingCycles(self.prepared, self._strides, behind, followed)
+            found = SlidingCycles(self.prepared, self._strides, behind, self._followed)
             self._recurring = found if found.recur else None
 
     @cached_property
@@ -162,31 +168,29 @@ class _Walk:
     def blocks(self) -> None:
         """The step in implicit blocks, which end at the latest where a cycle is kept."""
         step, behind, blocks = self.stage.step, 0, None
+        assert step.block is not None
         self._refuse_blocks()
         while behind < step.repeat:
             paths, block, anew = self.paths, None, False
             if paths is not None:
-                blocks = blocks or self._blocks_of(paths)
+                if blocks is None:
+                    blocks = CycleBlocks(paths, _correct(paths), step.block, step.tolerance)
+                blocks.go_on(paths, _correct(paths))
                 room = next(number for number in range(behind + 1, step.repeat + 1) if self._kept(number)) - behind
-                block = blocks.next(paths, self._on_path(behind), behind, room)
+                block = blocks.next(self._on_path(behind), behind, room)
                 anew = paths.expired(behind)
             if block is not None:
                 behind += block.count
                 self._take(block, behind)
+                self.move_mesh(behind)
                 continue
             behind += 1
             cycle = self.cycle(behind, anew=anew)
             if blocks is not None:
                 blocks.single(cycle)
-        note = "no cycle goes through the strides of another: every one was followed" if blocks is None else blocks.note
+            self.move_mesh(behind)
+        note = "no cycle goes through the strides of another: all were followed" if blocks is None else blocks.note
         self.behind[-1] = replace(self.behind[-1], notes=(*self.behind[-1].notes, note))
-
-    def _blocks_of(self, paths: WornPaths | SlidingCycles) -> CycleBlocks:
-        step = self.stage.step
-        assert step.block is not None
-        if isinstance(paths, WornPaths):
-            return CycleBlocks(paths, partial(wear_correction.corrected, paths), step.block, step.tolerance)
-        return CycleBlocks(paths, stride_correction.corrected, step.block, step.tolerance)
 
     def _refuse_blocks(self) -> None:
         """Blocks of cycles that could only go with all that is known of bodies."""
@@ -264,7 +268,7 @@ class _Walk:
             trace=((MethodRun(method="exact path", iterations=at.pivots, end=words),),),
             snapshots=(shot,),
         )
-        self.behind.append(lightened(stretch, every=False, end=False, heated=self.heated))
+        self._add(lightened(stretch, every=False, end=False, heated=self.heated))
         self.ends.append(shot.load_factor)
         self.at = None
 
@@ -300,7 +304,30 @@ class _Walk:
         else:
             worst = () if not whole.certificates else (worst_of(whole.certificates),)
             whole = replace(whole, certificates=worst, trace=whole.trace[:1], snapshots=(), events=())
-        self.behind.append(whole)
+        self._add(whole)
+
+    def _add(self, part: FollowedPart) -> None:
+        """Take a part to what is behind, on the mesh of the moment."""
+        if self.prepared.meshed is not None:
+            part = replace(part, snapshots=tuple(replace(shot, prepared=self.prepared) for shot in part.snapshots))
+        self.behind.append(part)
+
+    def move_mesh(self, behind: int) -> None:
+        """The mesh takes what sides have lost, so many cycles behind, where that is deep beside its cells."""
+        wear = wear_of(self.state) if self.at is None else self.at.wear
+        if self._deepest is None or (wear.beyond <= self._deepest).all():
+            return
+        self._whole(behind)
+        interval = list(straight_parts(self.stage, self.start.point, self.end, behind))[-1][0]
+        followed = give_way(self.prepared, self.state, interval, self.stage.name)
+        new, self.state = followed.prepared, followed.after
+        assert new is not None
+        assert new.wearing is not None
+        self.start, self.end = between_moved(self.prepared, new, self.start, self.end, wear_of(self.state).taken)
+        self.prepared, self.sides, self._deepest, self._recurring = new, new.wearing, deepest_wear(new), None
+        known = self.__dict__.pop("_of_pairs_that_stay", None)
+        self._followed = self._followed if known is None else known.followed
+        self._add(lightened(followed, every=self.stage.step.at == "events", end=False, heated=self.heated))
 
     def _cycle_parts(self, number: int) -> tuple[list[FollowedPart], Interval]:
         """Follow a cycle with all that is known of bodies and pairs; its parts, and the last interval."""
@@ -356,6 +383,11 @@ class _Walk:
         """The point of the loads between sides that are worn as they are now."""
         depth = wear_of(self.state).depth - wear_of(self.start).depth
         return replace(point, gap=point.gap + self.sides.gap @ depth)
+
+
+def _correct(paths: WornPaths | SlidingCycles) -> Correct:
+    """Newton's step of blocks of cycles."""
+    return partial(wear_correction.corrected, paths) if isinstance(paths, WornPaths) else stride_correction.corrected
 
 
 def is_round(number: int) -> bool:

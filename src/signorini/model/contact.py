@@ -229,6 +229,18 @@ class Contact:
                 f"is given, but '{yielding[0]}' yields; expected elastic bodies where sides wear", where=("wear",)
             )
 
+    def check_meshed(self, *, linked: bool) -> None:
+        """What goes with a mesh some of whose parts bolts or cyclic symmetries link.
+
+        Raises
+        ------
+        InputError
+            If the mesh is to move with what is worn.
+        """
+        if linked and self.wear is not None and self.wear.move_mesh is not None:
+            words = "is given, but bolts or cyclic symmetries link parts of the mesh; expected a mesh that stays"
+            raise InputError(words, where=("wear", "move_mesh"))
+
     def check_plane(self) -> None:
         """What goes with a plane model.
 

@@ -278,6 +278,7 @@ class Model(Short):
     def _check_contact(self, i: int, contact: Contact) -> None:
         try:
             contact.check_bodies([body.name for body in self.bodies if body.material.yields])
+            contact.check_meshed(linked=bool(self.bolts or self.cyclic_symmetries))
             if self.dimension == 2:
                 contact.check_plane()
         except InputError as error:

@@ -23,6 +23,9 @@ class Wear:
         worn volume over force and distance
     energy : alpha in its place, volume per work, area per force, >= 0
     mortar : the same of the other side, >= 0; a rigid obstacle does not wear
+    move_mesh : share of the height of a cell, > 0: where a side is worn by more than that since the mesh moved last,
+        the nodes of both sides, and with them those of the bodies, move by what is worn; None (default): gaps alone
+        know it
 
     Examples
     --------
@@ -33,6 +36,7 @@ class Wear:
     coefficient: float | None = None
     energy: float | None = None
     mortar: float = 0.0
+    move_mesh: float | None = None
 
     def __post_init__(self) -> None:
         if (self.coefficient is None) == (self.energy is None):
@@ -41,6 +45,8 @@ class Wear:
         key = "energy" if self.by_energy else "coefficient"
         object.__setattr__(self, key, number(getattr(self, key), (key,), least=0.0))
         object.__setattr__(self, "mortar", number(self.mortar, ("mortar",), least=0.0))
+        if self.move_mesh is not None:
+            object.__setattr__(self, "move_mesh", number(self.move_mesh, ("move_mesh",), above=0.0))
         if self.nonmortar == self.mortar == 0.0:
             raise InputError("is 0 on both sides, and nothing wears; expected a coefficient > 0")
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -25,7 +25,8 @@ class BodyFields:
 
     Attributes
     ----------
-    points, displacement : (n, d) undeformed coordinates and displacement, length
+    points, displacement : (n, d) undeformed coordinates, of a mesh that has moved with what is worn, and displacement,
+        length
     stress : (n, 6) force per area: xx, yy, zz, xy, yz, xz, tension positive
     node : (n,) number in the mesh or deck
     families : of every block of cells
@@ -68,18 +69,28 @@ class Fields:
         self._kept: dict[State, list[BodyStress]] = {}
         self._points: tuple[StepResult, list[tuple[IntArray, Array]]] | None = None
         self._flow: tuple[State, list[PlasticFields]] | None = None
+        self._moved: tuple[Array, Model, Space] | None = None
 
     @cached_property
     def space(self) -> Space:
         """The displacement space of the model's mesh."""
         return make_space(self.model.mesh, axisymmetric=self.model.axisymmetric)
 
+    def on(self, state: State) -> tuple[Space, Model]:
+        """The space and the model on the mesh of a state, which may have moved with what is worn; the last is kept."""
+        if state.places is None:
+            return self.space, self.model
+        if self._moved is None or self._moved[0] is not state.places:
+            model = replace(self.model, mesh=replace(self.model.mesh, points=state.places))
+            self._moved = state.places, model, make_space(model.mesh, axisymmetric=model.axisymmetric)
+        return self._moved[2], self._moved[1]
+
     def stresses(self, state: State) -> list[BodyStress]:
         """Stresses of every body at its nodes."""
         if state not in self._kept:
             assert state.displacement is not None
             plastic = self.plastic_strains(state)
-            found = body_stresses(self.space, self.model, state.displacement, state.factors, plastic)
+            found = body_stresses(*self.on(state), state.displacement, state.factors, plastic)
             self._kept = {end: stresses for end, stresses in self._kept.items() if end in self._shared} | {state: found}
         return self._kept[state]
 
@@ -95,7 +106,7 @@ class Fields:
 
     def _deformed(self, step: StepResult) -> DeformedBodies:
         """The bodies at the end of a step."""
-        return DeformedBodies.of(self.space, self.model, step.displacement, step.factors, self.plastic_strains(step))
+        return DeformedBodies.of(*self.on(step), step.displacement, step.factors, self.plastic_strains(step))
 
     def cell_plastic(self, step: StepResult) -> Iterator[tuple[IntArray, PlasticFields]]:
         """Plastic fields in the cells, see :func:`signorini.plasticity.fields.point_fields`; none where none yields."""
@@ -117,7 +128,7 @@ class Fields:
     def at(self, state: State) -> BodyFields:
         """All bodies in a state whose displacement is known, one after the other in the order of the model."""
         assert state.displacement is not None
-        stresses, plastic, mesh = self.stresses(state), self.plastic(state), self.model.mesh
+        stresses, plastic, mesh = self.stresses(state), self.plastic(state), self.on(state)[1].mesh
         nodes = np.concatenate([part.nodes for part in stresses])
         owners = mesh.by_family(self.model.body_of_cells())
         families, cells, body, in_cells = [], [], [], []

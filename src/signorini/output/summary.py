@@ -200,6 +200,7 @@ def _wear(result: ContactResult) -> dict[str, Any] | None:
         "volume": wear.volume[0],
         "volume_mortar": wear.volume[1],
         "max_distance": float(wear.distance.max(initial=0.0)),
+        "mesh_moves": wear.mesh_moves,
     }
 
 

@@ -24,6 +24,7 @@ class ContactWear(Short):
     volume : worn, of the nonmortar and the mortar side; in the plane of the thickness
     distance : (n,) slid where pairs are closed, either way, length
     cycles : steps that wear, and cycles of those that repeat
+    mesh_moves : how often the mesh has moved with what is worn, and bodies were condensed again
     """
 
     depth: Array
@@ -35,6 +36,7 @@ class ContactWear(Short):
     volume: tuple[float, float]
     distance: Array
     cycles: int
+    mesh_moves: int = 0
 
     @property
     def deepest(self) -> tuple[float, float]:

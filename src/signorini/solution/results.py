@@ -205,13 +205,14 @@ class Instant(Short):
     load_factor : step k goes from k - 1 to k
     what : "start", "event", "increment", "asked", "segment" (of the step ends), "jump" and "landing" (its two ends),
         "change" (of the law of contact, before the loads of the step), "approach" (of bodies that float, up to where
-        they touch), "wear" (of the sides, at one load)
+        they touch), "wear" (of the sides, at one load), "mesh" (that moves with what is worn, at one load)
     contacts : in the order of the model; gaps are NaN where the bodies were not looked at and a pair is far from
         touching, dissipation counts from the beginning of the step
     work : since the beginning of the step, NaN where the bodies were not looked at
     displacement : (nodes, d) length, at times asked for, and everywhere where ``at = "events"``; otherwise None
     factors : load factors by name
     plastic : flow of the bodies; None where none yields
+    places : (nodes, d) of the mesh where displacements are known, if sides are worn and it has moved; otherwise None
     """
 
     load_factor: float
@@ -221,6 +222,7 @@ class Instant(Short):
     displacement: Array | None
     factors: Mapping[str, float]
     plastic: PlasticResult | None = None
+    places: Array | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -334,6 +336,11 @@ class StepResult(Short):
     def factors(self) -> Mapping[str, float]:
         """Load factors at its end, by name."""
         return self.instants[-1].factors
+
+    @property
+    def places(self) -> Array | None:
+        """(nodes, d) Of the mesh at its end, where it has moved with what is worn; otherwise None."""
+        return self.instants[-1].places
 
     @property
     def contacts(self) -> tuple[ContactResult, ...]:
