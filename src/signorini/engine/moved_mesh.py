@@ -16,10 +16,10 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.engine.energy import stored_energy
 from signorini.engine.examine import Examined, floating_motions
-from signorini.engine.handing_over import hand_over, turned
+from signorini.engine.handing_over import supported
+from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared, condensed_model, whole_stiffness
-from signorini.engine.sliding import AHEAD, paired, stride_of
-from signorini.engine.step_parts import FollowedPart, Interval, StepPart, ending
+from signorini.engine.step_parts import FollowedPart
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.body_frames import BodyFrames
 from signorini.fem.loads import nodal_loads
@@ -28,9 +28,7 @@ from signorini.fem.space import make_space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.fem.worn_mesh import WornSide, cell_heights, worn_places
 from signorini.interface.interface import Interface, make_interface
-from signorini.interface.sliding import paired_at, sliding_pairs
 from signorini.interface.worn_sides import WornSides, worn_sides
-from signorini.law.states import OPEN
 from signorini.model.model import Model
 from signorini.model.stage import stages
 from signorini.outcome import Outcome
@@ -171,20 +169,22 @@ def _moved_gap(old: Prepared, new: Prepared, depth: Array, taken: tuple[Array, A
     return np.where(np.isfinite(change), change, 0.0) + worn
 
 
-def give_way(now: Prepared, state: State, interval: Interval, where: str) -> FollowedPart:
-    """The mesh takes all that sides have lost where it moves, and the bodies find their equilibrium again.
+def giving_way(now: Prepared, state: State, where: str) -> tuple[Prepared, State, LoadPoint]:
+    """The model on a mesh that takes all that sides have lost where it moves; a state on it, and the point at the end.
+
+    What equilibrium misses on it is a load that goes to zero from that state to the point, and gaps go from what they
+    are to those of the mesh, which differ by squares of angles.
 
     Parameters
     ----------
     now : the model before
     state : with its bodies
-    interval : that ends there
     where : name of the step, for messages
 
     Raises
     ------
     SolveFailed
-        If the mesh cannot follow, or no equilibrium is found.
+        If the mesh cannot follow.
     """
     deepest, wear = deepest_wear(now), wear_of(state)
     assert deepest is not None
@@ -192,47 +192,49 @@ def give_way(now: Prepared, state: State, interval: Interval, where: str) -> Fol
     try:
         new = on_worn_mesh(now, taken)
     except InputError as error:
-        words = f"{where} at {interval.high:.6%}: the mesh cannot move with what is worn: {error}"
+        words = f"{where}: the mesh cannot move with what is worn: {error}"
         raise SolveFailed(words, status=Outcome.NOT_FOUND) from error
     gap = state.point.gap + _moved_gap(now, new, wear.depth, (wear.taken, taken))
-    here, ahead = new, 0.0
-    if new.model.slides:
-        place = paired_at(new.interface, new.space, new.model, new.constraints, new.frames, state.displacement)
-        here, ahead = paired(new, place), AHEAD * stride_of(new)
-    begin = _posed(
-        now, here, replace(state, wear=replace(wear, taken=taken, moves=wear.moves + 1)), gap - new.interface.gap
+    end = replace(supported(state.point, len(state.displacement)), gap=gap)
+    loads = applied(new, end)[0]
+    state = replace(
+        state,
+        external=state.external + loads - applied(now, state.point)[0],
+        wear=replace(wear, taken=taken, moves=wear.moves + 1),
     )
-    still = replace(interval, low=interval.high, ends="wear", cycle=0, asked=False)
-    part = StepPart(prepared=here, where=where, interval=still, before=begin, end=begin.point)
-    found = hand_over(here, begin, part, ahead)
-    after = replace(
-        found.after,
-        point=replace(state.point, gap=gap),
-        forces=turned(found.after.forces, here.interface, new.interface),
-        released=found.after.released + stored_energy(now, state) - stored_energy(new, begin),
+    if new.model.slides:  # strides find what equilibrium misses with the pairs of the moment
+        return new, replace(state, point=replace(state.point, gap=gap)), replace(state.point, gap=gap)
+    inner = new.K @ state.displacement - new.interface.on_bodies(state.forces)
+    fading = inner - state.external
+    moved = new.interface.motion(state.displacement) + new.interface.give(state.forces)
+    begin = replace(
+        state,
+        point=replace(end, gap=state.gap - moved[0], reaction=end.reaction + fading),
+        external=state.external + fading,
+        tangential=moved[1:],
     )
-    shot = replace(found.snapshots[0], what="mesh", prepared=new)
-    return replace(ending(replace(found, snapshots=(shot,)), after), before=state, prepared=new)
+    return new, begin, end
 
 
-def _posed(old: Prepared, here: Prepared, state: State, beyond: Array) -> State:
-    """A state as the pairs see it that are where bodies are on the mesh that has moved; displacements of nodes stay.
+def given_way(old: tuple[Prepared, State], new: Prepared, point: LoadPoint, followed: FollowedPart) -> FollowedPart:
+    """The mesh has moved: the work of the loads, and the elastic energy that is gone with what is worn.
 
     Parameters
     ----------
-    old : the model before
-    here : the model behind, with its pairs
-    state : to be seen
-    beyond : (n,) gaps beyond those of the geometry, length
+    old : the model and the state before
+    new : the model on the mesh that has moved
+    point : of the loads at the end
+    followed : at constant loads, from one equilibrium to the other
     """
-    interface, u = here.interface, state.displacement
-    forces = turned(state.forces, old.interface, interface)
-    moved = interface.motion(u) + interface.compliance * forces
-    gap = interface.gap - np.where(sliding_pairs(here.model, interface), interface.motion(u)[0], 0.0) + beyond
-    return replace(
-        state,
-        point=replace(state.point, gap=gap),
-        forces=forces,
-        gap=np.where(state.status == OPEN, gap + moved[0], state.gap),
-        tangential=moved[1:],
+    (now, before), after = old, followed.after
+    work = float(applied(new, point)[0] @ (after.displacement - before.displacement))
+    gone = stored_energy(now, before) - stored_energy(new, after)
+    spent = float((after.dissipation - before.dissipation).sum())
+    after = replace(
+        after,
+        point=replace(after.point, reaction=point.reaction, offset=point.offset),
+        work=before.work + work,
+        released=before.released + gone + work - spent,
     )
+    shot = replace(followed.snapshots[-1], what="mesh", state=after)
+    return replace(followed, before=before, after=after, snapshots=(shot,), prepared=new, events=(), until=None)

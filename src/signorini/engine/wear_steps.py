@@ -20,7 +20,7 @@ from signorini.attempt import MethodRun
 from signorini.engine import stride_correction, wear_correction
 from signorini.engine.cycles import cycle_between
 from signorini.engine.events import stops_at
-from signorini.engine.moved_mesh import between_moved, deepest_wear, give_way
+from signorini.engine.moved_mesh import between_moved, deepest_wear, given_way, giving_way
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose, worn
 from signorini.engine.sliding import Stride, follow_sliding
@@ -218,8 +218,7 @@ class _Walk:
         once, others = self.state, block.count - 1
         wear, before = wear_of(once), wear_of(begin)
         taken, freed = once.dissipation - begin.dissipation, once.released - begin.released
-        last = block.cycle
-        lost = last.after.wear.loose + others * last.rubbing.volume - block.done.wear.loose
+        lost = block.cycle.after.wear.loose + others * block.cycle.rubbing.volume - block.done.wear.loose
         self.state = replace(
             once,
             dissipation=once.dissipation + others * taken,
@@ -319,14 +318,16 @@ class _Walk:
             return
         self._whole(behind)
         interval = list(straight_parts(self.stage, self.start.point, self.end, behind))[-1][0]
-        followed = give_way(self.prepared, self.state, interval, self.stage.name)
-        new, self.state = followed.prepared, followed.after
-        assert new is not None
-        assert new.wearing is not None
-        self.start, self.end = between_moved(self.prepared, new, self.start, self.end, wear_of(self.state).taken)
-        self.prepared, self.sides, self._deepest, self._recurring = new, new.wearing, deepest_wear(new), None
-        known = self.__dict__.pop("_of_pairs_that_stay", None)
-        self._followed = self._followed if known is None else known.followed
+        still = replace(interval, low=interval.high, ends="wear", cycle=0, asked=False)
+        old, before = self.prepared, self.state
+        self.prepared, self.state, point = giving_way(old, before, f"{self.stage.name} at {interval.high:.6%}")
+        assert self.prepared.wearing is not None
+        self.start, self.end = between_moved(old, self.prepared, self.start, self.end, wear_of(self.state).taken)
+        self.sides, self._deepest, self._recurring = self.prepared.wearing, deepest_wear(self.prepared), None
+        followed = given_way((old, before), self.prepared, before.point, self._part(still, point))
+        self.state = followed.after
+        if (known := self.__dict__.pop("_of_pairs_that_stay", None)) is not None:
+            self._followed = known.followed
         self._add(lightened(followed, every=self.stage.step.at == "events", end=False, heated=self.heated))
 
     def _cycle_parts(self, number: int) -> tuple[list[FollowedPart], Interval]:
