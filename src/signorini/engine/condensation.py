@@ -13,6 +13,7 @@ from signorini.condense.kept import Kept
 from signorini.engine.examine import Examined
 from signorini.errors import InputError
 from signorini.fem.rigid import hinged
+from signorini.fem.stiffness import stiffness
 from signorini.interface.active import FreeBodies
 from signorini.interface.sliding import sliding_unknowns
 from signorini.iterative.bodies import ITERATIVE
@@ -94,3 +95,11 @@ def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
         f"{part.label} has no stiffness against some motion of {moving}, though no rigid motion is free; expected "
         "cells that are joined by edges (a hinge at a single node?) and moduli that are not extremely apart"
     )
+
+
+def whole_stiffness(examined: Examined) -> sp.csr_array:
+    """(dofs, dofs) Of bodies and elastic foundations, supports not applied."""
+    K = stiffness(examined.space, examined.model)
+    for springs in examined.constraints.springs.values():
+        K = sp.csr_array(K + springs.T @ springs)
+    return K

@@ -14,11 +14,12 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.engine.condensation import whole_stiffness
 from signorini.engine.energy import stored_energy
 from signorini.engine.examine import Examined, floating_motions
 from signorini.engine.handing_over import supported
 from signorini.engine.increments import applied
-from signorini.engine.prepare import Prepared, condensed_model, whole_stiffness
+from signorini.engine.prepare import Prepared, condensed_model
 from signorini.engine.step_parts import FollowedPart
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.body_frames import BodyFrames

@@ -16,7 +16,7 @@ from signorini.condense.ties import Ties
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_model
 from signorini.engine.closure_solver import ClosureSolver
-from signorini.engine.condensation import condense_bodies, free_bodies
+from signorini.engine.condensation import condense_bodies, free_bodies, whole_stiffness
 from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
 from signorini.engine.memory_check import iterates, refuse_unassembled
 from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers
@@ -24,7 +24,7 @@ from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.errors import InputError
-from signorini.fem.stiffness import reduced_stiffness, stiffness
+from signorini.fem.stiffness import reduced_stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import Interface, under_laws
 from signorini.interface.worn_sides import WornSides, worn_sides
@@ -320,14 +320,6 @@ def _flowing(made: Prepared, yielding: YieldingBodies | None) -> Prepared:
         elastic=made.solver, tangents=tangents, interface=made.interface, scale=made.scale, absent=made.absent
     )
     return replace(made, yielding=yielding, solver=solver)
-
-
-def whole_stiffness(examined: Examined) -> sp.csr_array:
-    """(dofs, dofs) Of bodies and elastic foundations, supports not applied."""
-    K = stiffness(examined.space, examined.model)
-    for springs in examined.constraints.springs.values():
-        K = sp.csr_array(K + springs.T @ springs)
-    return K
 
 
 def condensed_model(
