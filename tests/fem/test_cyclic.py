@@ -81,6 +81,10 @@ def test_a_contact_that_a_sector_cuts_is_refused():
     )
     with pytest.raises(sg.InputError, match=r"reaches 'hub\.start' or 'hub\.end' at node 1"):
         sg.solve(model)
+    shaft = replace(model, cyclic_symmetries=model.cyclic_symmetries[1:])  # whichever side turns out to be the coarser
+    shaft = replace(shaft, contacts=[replace(model.contacts[0], side="coarser")])
+    with pytest.raises(sg.InputError, match=r"contact\[0\]\.mortar: reaches 'shaft\.start' or 'shaft\.end' at node"):
+        sg.solve(shaft)
 
 
 def test_in_space_about_an_axis_of_its_own():

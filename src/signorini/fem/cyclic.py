@@ -43,7 +43,9 @@ def cyclic_rows(space: Space, model: Model, j: int) -> tuple[IntArray, Array]:
 
 
 def refuse_contact_across(space: Space, model: Model) -> None:
-    """Refuse contacts whose nodes are on a side of a sector: half of what they bear is on the other.
+    """Refuse contacts whose nonmortar nodes are on a side of a sector: half of what they bear is on the other.
+
+    Which side of a contact is the coarser one, and nonmortar for that, is known later: neither may reach a side then.
 
     Parameters
     ----------
@@ -57,13 +59,18 @@ def refuse_contact_across(space: Space, model: Model) -> None:
     for symmetry in model.cyclic_symmetries:
         sides = np.union1d(space.mesh.nodes_of(symmetry.first), space.mesh.nodes_of(symmetry.second))
         for i, contact in enumerate(model.contacts):
-            both = np.intersect1d(space.mesh.nodes_of(contact.nonmortar), sides)
-            if len(both):
-                raise InputError(
-                    f"reaches '{symmetry.first}' or '{symmetry.second}' at node {space.mesh.labels[both[0]]}, where a "
-                    "cyclic sector ends; expected a sector cut where nothing touches, or supports of symmetry",
-                    where=("contact", i, "nonmortar"),
-                )
+            names = {"nonmortar": contact.nonmortar}
+            if contact.side == "coarser" and isinstance(contact.mortar, str):
+                names["mortar"] = contact.mortar
+            for key, name in names.items():
+                both = np.intersect1d(space.mesh.nodes_of(name), sides)
+                if len(both):
+                    raise InputError(
+                        f"reaches '{symmetry.first}' or '{symmetry.second}' at node {space.mesh.labels[both[0]]}, "
+                        "where a cyclic sector ends; expected a sector cut where nothing touches, or supports of "
+                        "symmetry",
+                        where=("contact", i, key),
+                    )
 
 
 def _matched(
