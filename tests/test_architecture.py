@@ -8,6 +8,7 @@ named, in every room where none is.
 import ast
 import collections
 import functools
+import gc
 import graphlib
 import itertools
 import re
@@ -87,6 +88,17 @@ ALLOWED = {
 }
 # narrower than a folder: stresses are for pictures and files, assembly, supports and flow rules are not
 FEM_FOR_OUTPUT = {"signorini.fem.space", "signorini.fem.stress", "signorini.plasticity.fields"}
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _no_collection():
+    """Millions of nodes of trees, none of which is garbage: collections among them take most of the time, here and in
+    every test after."""
+    gc.disable()
+    yield
+    for cache in (tree, statements, imports, names_in):
+        cache.cache_clear()
+    gc.enable()
 
 
 def module_name(path):

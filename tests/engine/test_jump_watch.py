@@ -41,6 +41,7 @@ def block(*, pull, increments, jump=None):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backend", ["auto", "iterative"])
 @pytest.mark.parametrize(("increments", "words"), [(1, "1 increment"), (3, "3 increments")])
 def test_the_equilibrium_behind_a_slide_is_called_a_candidate(increments, words, backend):
@@ -51,6 +52,7 @@ def test_the_equilibrium_behind_a_slide_is_called_a_candidate(increments, words,
     assert notes[0].endswith(f"; followed in {words} to what is a candidate")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("backend", "increments", "reached"),
     [("auto", 1, 1.5), ("auto", 3, 1.5), ("iterative", 1, 1.0), ("iterative", 3, 4 / 3)],

@@ -316,6 +316,7 @@ def test_the_command_line_goes_on(tmp_path: Path) -> None:
     assert main([*run, str(tmp_path / "d"), str(tmp_path / "two.toml"), "--from", str(tmp_path / "one.toml")]) == 2
 
 
+@pytest.mark.slow
 def test_the_command_line_goes_on_with_bodies_that_have_yielded(tmp_path: Path) -> None:
     """What is let go after a restart is what is let go in one run, to the last digit of every file."""
     example = (Path(__file__).parents[2] / "examples" / "indentation.toml").read_text()

@@ -128,6 +128,7 @@ def test_implicit_blocks_are_of_first_order():
     assert errors[100] < 0.03
 
 
+@pytest.mark.slow
 def test_implicit_blocks_are_stable_where_explicit_ones_oscillate():
     """As much wear in a cycle as in a thousand: explicit, pressures jump from node to node and do not flatten."""
 

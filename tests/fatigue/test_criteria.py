@@ -108,6 +108,7 @@ def matrices(tensors):
     return tensors[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
 def test_random_histories_beside_dense_sampling_of_times_and_planes(seed):
     """Sampling never finds more, and with 60 times a part and 20000 planes hardly less."""

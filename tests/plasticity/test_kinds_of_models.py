@@ -365,6 +365,7 @@ def test_a_slab_in_plane_strain_is_the_same_in_space(family):
     assert deep.end.state.plastic.dissipation == pytest.approx(0.5 * flat.end.state.plastic.dissipation, rel=bound)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "given"),
     [

@@ -38,6 +38,7 @@ def test_answers_obey_the_laws(seed, kinds):
     assert verdict.outcome == "right", (sorted(case.kinds), verdict)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [8, 26])
 def test_collapse_is_named_where_contact_loses_the_longest_step(seed):
     """Contact finds nothing on the softest tangent; on stiffer ones steps are shorter, and bound the load worse."""

@@ -120,6 +120,7 @@ def test_collapse_on_the_way_to_another_temperature_is_named_where_it_is(
     assert limit * (1.0 - 1e-6) <= named <= limit * (1.0 + loose)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("formulation", [None, "incompatible"])
 @pytest.mark.parametrize("warm", [-1e-3, 1e-3])
 def test_thermal_stresses_are_no_loads_of_a_limit(warm, formulation):

@@ -79,6 +79,7 @@ def test_two_leaf_springs_share_a_load_at_the_tip(length, cells, formulation):
     assert end.displacement[:, 1].min() == pytest.approx(-2.0 * force * length**3 / STEEL.E, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_leaf_springs_too_slender_for_the_digits_are_told_so():
     said = sg.solve(leaf_springs(4000.0, 6.25e-6, "quad", "incompatible"), raise_on_failure=False)
     assert said.status == "not_found"

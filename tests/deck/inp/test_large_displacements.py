@@ -68,6 +68,7 @@ def test_bodies_that_slide_and_turn_are_where_calculix_has_them(tmp_path: Path, 
     assert abs(step.energy_defect) < 1e-4 * abs(step.work)
 
 
+@pytest.mark.slow
 def test_a_rigid_head_turns_by_its_finite_angle(tmp_path: Path) -> None:
     """Its nodes stay as far apart, without CalculiX too."""
     solution = sg.solve(sg.read(deck(tmp_path, "202,3,3,.5")))
