@@ -173,3 +173,56 @@ def test_modes_are_those_about_the_lines_of_the_pressures():
     bed = replace(lightly.contacts[0], closure=None, normal_compliance=0.025 / 4.0)
     line = sg.natural_modes(sg.solve(replace(lightly, contacts=[bed])), 2).frequencies
     assert_allclose(at, line, rtol=1e-9)
+
+
+KEPT = sg.Closure([(0.0, 0.0), (0.1, 2.0), (0.15, 10.0)], unloading=400.0)  # of 10, 0.125 is kept of 0.15
+
+
+def test_a_gasket_springs_back_along_its_own_line_and_keeps_the_rest():
+    """Closed forms of closure, stored and dissipated energy, to a pressure, to none, to less, to more and to less."""
+    loads = (6.0, 0.0, 3.0, 10.0, 2.0)
+    steps = [sg.Step(scale={"p": load / 10.0}, path="exact") for load in loads]
+    solution = sg.solve(block_on_a_bed(10.0, KEPT, steps=steps))
+    most, lost = 0.0, {0.0: 0.0, 6.0: 2.0 * (0.1 + 0.1 - 6.0**2 / 800), 10.0: 2.0 * (0.1 + 0.3 - 10.0**2 / 800)}
+    for load, step in zip(loads, solution.steps, strict=True):
+        before, most = most, max(most, load)
+        closed = np.interp(most, [0.0, 2.0, 10.0], [0.0, 0.1, 0.15]) - (most - load) / 400.0
+        assert_allclose(step.contacts[0].gap, -closed, rtol=1e-12)
+        assert step.interface_energy == pytest.approx(2.0 * load**2 / 800.0, abs=1e-15)
+        assert step.dissipation == pytest.approx(lost[most] - lost[before], abs=1e-13)
+        assert step.strain_energy == pytest.approx(2.0 * load**2 / 2000.0, abs=1e-13)
+        assert abs(step.energy_defect) < 1e-14
+    kinks = [(event.what, round(event.load_factor, 9)) for event in solution.steps[3].events]
+    assert kinks == [("softens", round(3.0 + 3.0 / 7.0, 9))]
+
+
+def test_gaskets_with_friction_are_followed_exactly_where_nothing_is_asked_and_answered_alike_elsewhere():
+    ways = [{"p": 0.6, "q": 0.0}, {"p": 0.1}, {"p": 0.8, "q": 1.0}]
+    model = block_on_a_bed(SLANTED, KEPT, friction=0.2, cells=5, steps=[sg.Step(scale=way) for way in ways])
+    exact = sg.solve(model)
+    fine = sg.solve(replace(model, steps=[sg.Step(scale=way, increments=40) for way in ways]))
+    coarse = replace(model, steps=[sg.Step(scale=way, increments=2) for way in ways])
+    for one, two, three, four in zip(
+        exact.steps, fine.steps, sg.solve(coarse).steps, sg.solve(coarse, backend="iterative").steps, strict=True
+    ):
+        assert one.path == "exact"
+        assert abs(one.energy_defect) < 1e-14
+        assert_allclose(one.contacts[0].pressure, two.contacts[0].pressure, rtol=0, atol=2e-3)
+        assert_allclose(three.contacts[0].pressure, four.contacts[0].pressure, rtol=0, atol=1e-7)
+    alone = replace(block_on_a_bed(SLANTED, KEPT), steps=[sg.Step()])
+    assert sg.solve(alone).steps[0].path == "exact"  # the way there counts, without friction too
+
+
+def test_a_gasket_in_space_and_a_state_of_it_in_a_file(tmp_path):
+    steps = [sg.Step(scale={"p": part, "q": 0.5 * part}, path="exact") for part in (0.5, 0.1, 0.7)]
+    model = cube(4, steps)
+    model = replace(model, contacts=[replace(model.contacts[0], closure=KEPT)])
+    whole = sg.solve(model)
+    assert max(abs(step.energy_defect) for step in whole.steps) < 1e-14
+    sg.solve(replace(model, steps=steps[:2])).save_state(tmp_path / "start.npz")
+    rest = sg.solve(replace(model, steps=steps[2:]), start=tmp_path / "start.npz").steps[0]
+    assert np.array_equal(rest.contacts[0].pressure, whole.steps[2].contacts[0].pressure)
+    assert rest.dissipation == whole.steps[2].dissipation > 0.01
+    bare = replace(model, steps=steps[2:], contacts=[replace(model.contacts[0], closure=replace(KEPT, unloading=None))])
+    with pytest.raises(sg.InputError, match="the compliance of unloading"):
+        sg.solve(bare, start=tmp_path / "start.npz")

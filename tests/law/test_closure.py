@@ -73,3 +73,10 @@ def test_secants_of_the_exponential_law_are_as_close_as_asked(tolerance):
     error = above / (exact + 0.02)
     assert error.min() > -1e-9
     assert 0.9 * tolerance < error.max() < 1.001 * tolerance
+
+
+def test_what_springs_back_is_no_softer_than_its_lines():
+    with pytest.raises(sg.InputError) as caught:
+        sg.Closure(GASKET.points, unloading=5000.0)
+    assert str(caught.value) == "unloading: is 5000, less than 11000, the steepest line of the points; expected more"
+    assert sg.Closure(GASKET.points, unloading=11000.0).words.endswith("4 lines, springs back by 11000")

@@ -78,8 +78,13 @@ def follow_on_lines(part: StepPart, stops: PathSettings | None, tell: Callable[[
 
 
 def on_their_lines(path: LinesPath, state: PathState) -> bool:
-    """Whether a state of the law on the lines of a path is one of the closures: every pair is on its line."""
-    return not _Watch.of(path.part.prepared, path.lines).left(Breakpoint(factor=0.0, h=state.h, r=state.r))
+    """Whether a state of the law on the lines of a path is one of the closures: every pair is on its line.
+
+    Of closures that do not spring back along their lines that is not known: pairs may have been farther on the way.
+    """
+    return path.lines.closure.springs is None and not _Watch.of(path.part.prepared, path.lines).left(
+        Breakpoint(factor=0.0, h=state.h, r=state.r)
+    )
 
 
 def _followed(
@@ -106,7 +111,8 @@ def _first_lines(part: StepPart) -> Lines:
     own = prepared.solver.active
     if not state.forces.any() and not state.displacement.any() and (state.gap[own] < 0.0).any():
         state = advance(prepared, state, state.point, part.where)[0]
-    return Lines.at(interface.closure, np.maximum(state.forces[0], 0.0) / interface.area)
+    closure = interface.closure.after(part.before.borne)
+    return Lines.at(closure, np.maximum(state.forces[0], 0.0) / interface.area)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -117,13 +123,16 @@ class _Watch:
     ----------
     lines : of all pairs
     active : (n,) those of the path
-    low, high : (a,) scaled normal forces at which lines of these begin and end
+    low, high : (a,) scaled normal forces at which lines of these begin and end; of pairs on the way to the largest
+        pressure yet, which spring back otherwise, the low end goes along
+    loading : (a,) those pairs
     """
 
     lines: Lines
     active: BoolArray
     low: Array
     high: Array
+    loading: BoolArray
 
     @staticmethod
     def of(prepared: Prepared, lines: Lines) -> _Watch:
@@ -132,16 +141,21 @@ class _Watch:
         active = condensed.active
         per_pressure = interface.area[active] / condensed.root
         low, high = (per_pressure * end[active] for end in lines.closure.ends(lines.line))
-        return _Watch(lines=lines, active=active, low=np.where(lines.line[active] > 0, low, -np.inf), high=high)
+        springs, line = lines.closure.springs, lines.line[active]
+        on_the_way = np.zeros(len(line), np.bool_) if springs is None else (springs[active] > 0.0) & (line > 0)
+        return _Watch(lines=lines, active=active, low=np.where(line > 0, low, -np.inf), high=high, loading=on_the_way)
 
     def _width(self, p: Array) -> float:
         return _KINK_WIDTH * float(np.abs(p).max(initial=0.0))
 
     def left(self, piece: Breakpoint) -> bool:
-        """Whether any pair is beyond its line at the end of a piece."""
+        """Whether any pair is beyond its line at the end of a piece, one after the other."""
         p = piece.r[0]
         width = self._width(p)
-        return bool(((p < self.low - width) | (p > self.high + width)).any())
+        left = bool(((p < self.low - width) | (p > self.high + width)).any())
+        if not left:
+            self.low[self.loading] = np.maximum(self.low, p)[self.loading]
+        return left
 
     def first(self, segment: Segment) -> tuple[float, BoolArray, BoolArray]:
         """Where pairs leave first in the last piece of a segment, and (a,) each which, below and above."""
@@ -187,9 +201,9 @@ class _Watch:
         return self._next(below, above)
 
     def _next(self, below: BoolArray, above: BoolArray) -> Lines:
-        line = self.lines.line.copy()
-        line[self.active] += above.astype(np.int64) - below
-        return self.lines._replace(line=line)
+        every = np.zeros((2, len(self.active)), np.bool_)
+        every[:, self.active] = below, above
+        return self.lines._replace(line=self.lines.closure.beside(self.lines.line, *every))
 
     def _compliance(self, lines: Lines) -> Array:
         return lines.closure.of_lines(lines.line)[0][self.active]

@@ -69,7 +69,7 @@ class Lines(NamedTuple):
         if care > 1:
             first = np.arange(len(off)) == off.argmax()
             below, above = below & first, above & first
-        return self._replace(line=self.line - below + above)
+        return self._replace(line=self.closure.beside(self.line, below, above))
 
 
 class CompliantSolver(ContactSolver, Protocol):
@@ -157,8 +157,8 @@ class ClosureSolver:
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment on lines that its pressures lie on."""
         interface, near = increment.system.interface, increment.near
-        closure, area = interface.closure, interface.area
-        assert closure is not None
+        assert interface.closure is not None
+        closure, area = interface.closure.after(increment.state.borne), interface.area
         before = (increment.state if near is None else near).forces[0] / area
         lines, seen, care = Lines.at(closure, np.maximum(before, 0.0)), set[bytes](), 0
         tried: list[MethodRun] = []

@@ -62,7 +62,7 @@ def cycle_between(begin: State, end: State, sliding: Array) -> Cycle:
         number=0,
         load_factor=0.0,
         work=end.work - begin.work,
-        dissipation=float((end.dissipation - begin.dissipation).sum()),
+        dissipation=float((end.dissipated - begin.dissipated).sum()),
         released=end.released - begin.released,
         sliding=float(sliding.max(initial=0.0)),
         change=float(np.abs(end.forces - begin.forces).max(initial=0.0)) / size,

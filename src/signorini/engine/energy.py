@@ -52,7 +52,7 @@ def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -
 
 
 def stored_energy(prepared: Prepared, state: State) -> float:
-    """Elastic, in the bodies, elastic foundations and compliant interfaces."""
+    """Elastic, in the bodies, elastic foundations and compliant interfaces; with what closures have taken for good."""
     u = state.displacement
     if prepared.turns:
         u = prepared.frames.elastic(u)  # rigid motions store nothing but their rounding
@@ -61,7 +61,7 @@ def stored_energy(prepared: Prepared, state: State) -> float:
     if prepared.yielding is not None and state.plastic is not None:
         bodies = prepared.yielding
         beyond = stored_by_plastic_strain(bodies, u, state.plastic, bodies.heat(state.point.factors))
-    return 0.5 * strain + beyond + interface_energy(prepared, state)
+    return 0.5 * strain + beyond + interface_energy(prepared, state) + state.closing_work
 
 
 def interface_energy(prepared: Prepared, state: State) -> float:
@@ -71,4 +71,5 @@ def interface_energy(prepared: Prepared, state: State) -> float:
     if interface.closure is None:
         return 0.5 * float(np.vdot(forces**2, interface.compliance))
     along = 0.5 * float(np.vdot(forces[1:] ** 2, interface.compliance[1:]))
-    return along + float(interface.area @ interface.closure.energy(forces[0] / interface.area))
+    closure = interface.closure.after(state.borne)
+    return along + float(interface.area @ closure.energy(forces[0] / interface.area))

@@ -57,7 +57,7 @@ class Handover:
         interface, point = prepared.interface, state.point
         own, faces = sliding_pairs(prepared.model, interface), facing(interface)
         forces = np.where(own, _bearable(prepared, np.where(faces, state.forces, 0.0)), state.forces)
-        moved = interface.motion(state.displacement) + interface.give(forces)
+        moved = interface.motion(state.displacement) + interface.give(forces, state.borne)
         first = np.where(faces, np.where(known, state.gap, np.maximum(gap + moved[0], 0.0)) - moved[0], gap)
         inner = prepared.K @ state.displacement - interface.on_bodies(forces)
         if state.plastic is not None:

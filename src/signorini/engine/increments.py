@@ -284,6 +284,7 @@ def _half_way(one: State, two: State) -> State:
         displacement=0.5 * (one.displacement + two.displacement),
         external=0.5 * (one.external + two.external),
         forces=0.5 * (one.forces + two.forces),
+        borne=None if two.borne is None else two.borne.half_way(one.borne),
     )
 
 

@@ -86,6 +86,7 @@ def on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState
         slip=slip,
         status=status,
         dissipation=dissipation,
+        borne=prepared.interface.borne_after(last.borne, forces),
     )
 
 

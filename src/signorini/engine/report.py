@@ -84,7 +84,7 @@ def step_result(
         bolts=bolt_results(model, prepared.space.at_nodes(state.displacement), state.point.factors, reactions)
         if bolts
         else {},
-        strain_energy=stored - layers - springs + heat(state),
+        strain_energy=stored - layers - springs - state.closing_work + heat(state),
         interface_energy=layers + springs,
         work=state.work - before.work + heat(state) - heat(before),
         released=state.released - before.released,
@@ -316,7 +316,8 @@ def _contact_result(
     # a pair that a support guides carries no friction: it touches without slipping
     sticks = (code == STICK) | (interface.friction.rubs[own] & (tangential < (1.0 - 1e-9) * bound))
     status = np.where(code == OPEN, results.OPEN, np.where(sticks, results.STICK, results.SLIP))
-    dissipation = (state.dissipation - before.dissipation)[own]
+    dissipation = (state.dissipated - before.dissipated)[own]
+    rubbed = (state.dissipation - before.dissipation)[own]
     return ContactResult(
         name=surface.name,
         gap=frozen(_distance(interface, state)[own]),
@@ -326,7 +327,7 @@ def _contact_result(
         sliding=frozen(sliding[own]),
         slip_range=frozen(slip_range[own]),
         status=status,
-        worn=frozen(dissipation / area),
+        worn=frozen(rubbed / area),
         dissipation=float(dissipation.sum()),
         wear=_contact_wear(prepared, surface, state),
         **surface.fixed,
@@ -336,7 +337,7 @@ def _contact_result(
 def _distance(interface: Interface, state: State) -> Array:
     """(n,) Gaps of the sides themselves, below 0 where they have closed on what lies between them."""
     if interface.closure is not None:
-        return interface.closure.distance(state.gap, state.forces[0] / interface.area)
+        return interface.closure.after(state.borne).distance(state.gap, state.forces[0] / interface.area)
     return np.asarray(state.gap - interface.normal_compliance * state.forces[0] / interface.area)
 
 

@@ -111,7 +111,7 @@ def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
     if part.prepared.flows:
         return follow_plastically(part, step, lambda elastic: _without_flow(stage, elastic))
     jump = "follow" if step.follows_jumps else step.jump
-    rubbing = bool((interface.friction.bounded & ~part.prepared.absent).any())
+    rubbing = bool((interface.friction.bounded & ~part.prepared.absent).any()) or interface.remembers
     if step.path != "exact" and (step.path is not None or step.increments is not None or not rubbing):
         if step.increments == "auto":
             return follow_automatically(part, step.tolerance or TOLERANCE_OF_FORCES, jump=jump)

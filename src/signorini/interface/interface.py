@@ -21,7 +21,7 @@ from signorini.interface.frames import LEAST_SINE, along_tangents, tangents
 from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.law.bound import Bound
-from signorini.law.closure import PairClosure
+from signorini.law.closure import Borne, PairClosure
 from signorini.law.friction import FrictionLaw, PairFriction
 from signorini.law.section import FrictionSection
 from signorini.model.model import Model
@@ -121,12 +121,23 @@ class Interface:
         tangential = [self.tangential_compliance] * (self.directions - 1)
         return np.stack([self.normal_compliance, *tangential]) / self.area
 
-    def give(self, forces: Array) -> Array:
-        """(d, n) How far forces (d, n) move the sides of the pairs on what lies between them, length."""
+    @property
+    def remembers(self) -> bool:
+        """Whether what lies between any sides does not spring back along its lines, so that the way there counts."""
+        return self.closure is not None and self.closure.springs is not None
+
+    def give(self, forces: Array, borne: Borne | None = None) -> Array:
+        """(d, n) How far forces (d, n) move the sides of the pairs on what lies between them and has borne, length."""
         given = self.compliance * forces
         if self.closure is not None:
-            given[0] = self.closure.at(np.maximum(forces[0], 0.0) / self.area)
+            given[0] = self.closure.after(borne).at(np.maximum(forces[0], 0.0) / self.area)
         return given
+
+    def borne_after(self, before: Borne | None, forces: Array) -> Borne | None:
+        """What closures remember after forces (d, n), too; None where they need no past."""
+        if self.closure is None:
+            return None
+        return self.closure.borne(before, np.maximum(forces[0], 0.0) / self.area, self.area)
 
     @property
     def bound(self) -> Bound:

@@ -15,12 +15,13 @@ from typing import Any, Self
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.checks import number
 from signorini.errors import InputError
 
 _END = 7.0  # of the clearance, beyond where pressure begins: 4460 times the pressure at no gap; the last slope goes on
 _MOST_POINTS = 200  # of a curve: 0.001 of the pressure takes some 140
+_SLOPE_ROUNDING = 1e-12  # of a slope
 _FLOOR = 0.01  # of the pressure where sides touch: errors are told of the pressure and that
 
 
@@ -35,14 +36,18 @@ class Closure:
     ----------
     points : two or more of (closure, pressure): the first pressure is 0, the others grow; closures do not fall. A first
         closure below 0 is that of sides that press before they touch, across a clearance
+    unloading : pressure per closure with which a side springs back from the largest pressure that it has borne, and is
+        pressed to it again; no less than of any line of the points, which are the way there. What it does not spring
+        back it keeps. None: it springs back along its points
 
     Examples
     --------
-    >>> Closure([(0.0, 0.0), (0.1, 2.0), (0.15, 10.0)]).points[-1]
+    >>> Closure([(0.0, 0.0), (0.1, 2.0), (0.15, 10.0)], unloading=400.0).points[-1]
     (0.15, 10.0)
     """
 
     points: Sequence[tuple[float, float]]
+    unloading: float | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.points, str) or not isinstance(self.points, Sequence | np.ndarray) or len(self.points) < 2:
@@ -67,6 +72,13 @@ class Closure:
         if found[-1][0] == found[0][0]:
             raise InputError("do not close; expected a last closure beyond the first one", where=("points",))
         object.__setattr__(self, "points", tuple(found))
+        if self.unloading is not None:
+            object.__setattr__(self, "unloading", number(self.unloading, ("unloading",), above=0.0))
+            closed, pressed = np.diff(np.array(found), axis=0).T
+            steepest = float(np.divide(pressed, closed, out=np.full(len(closed), np.inf), where=closed > 0).max())
+            if self.unloading < (1.0 - _SLOPE_ROUNDING) * steepest:
+                words = f"is {self.unloading:g}, less than {steepest:g}, the steepest line of the points; expected more"
+                raise InputError(words, where=("unloading",))
 
     @classmethod
     def exponential(cls, clearance: float, pressure: float, *, tolerance: float = 0.01) -> Self:
@@ -135,14 +147,15 @@ class Closure:
     @property
     def table(self) -> dict[str, Any]:
         """What a deck says of it."""
-        return {"points": self.points}
+        return {"points": self.points} | ({} if self.unloading is None else {"unloading": self.unloading})
 
     @property
     def words(self) -> str:
         """What `check` says of it."""
         (first, _), (last, pressure) = self.points[0], self.points[-1]
         begins = "" if first == 0.0 else f" from {first:g}"
-        return f"closes{begins} to {last:g} under {pressure:g}, {len(self.points) - 1} lines"
+        back = "" if self.unloading is None else f", springs back by {self.unloading:g}"
+        return f"closes{begins} to {last:g} under {pressure:g}, {len(self.points) - 1} lines{back}"
 
 
 def _lies_above(pressure: Callable[[float], float], one: float, two: float) -> float:
@@ -151,6 +164,26 @@ def _lies_above(pressure: Callable[[float], float], one: float, two: float) -> f
     curve = np.array([pressure(x) for x in at])
     secant = np.interp(at, [one, two], [pressure(one), pressure(two)])
     return float(((secant - curve) / (curve + _FLOOR)).max())
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Borne:
+    """What pairs that do not spring back along their lines remember.
+
+    Attributes
+    ----------
+    pressure : (n,) the largest so far
+    taken : (n,) energy that they have taken for good
+    """
+
+    pressure: Array
+    taken: Array
+
+    def half_way(self, other: Borne | None) -> Borne:
+        """What is remembered half-way to another, where both are on one line of the way there."""
+        if other is None:
+            return self
+        return Borne(pressure=0.5 * (self.pressure + other.pressure), taken=0.5 * (self.taken + other.taken))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -165,6 +198,8 @@ class PairClosure:
     compliance : closure per pressure on it
     rest : closure that the line has without pressure, length
     clearance : (n,) gap of the sides at which pressure begins, length
+    springs : (n,) closure per pressure with which pairs spring back from the largest pressure; 0 of those that do so
+        along their lines; None where all do
 
     Examples
     --------
@@ -177,6 +212,7 @@ class PairClosure:
     compliance: Array
     rest: Array
     clearance: Array
+    springs: Array | None = None
 
     @classmethod
     def of(
@@ -208,7 +244,50 @@ class PairClosure:
                 lines[2, own] = points[:-1, 0] - points[0, 0] - slope * begins
             parts.append(np.repeat(lines[:, :, None], count, axis=2))
         begins, compliance, rest, clearance = np.concatenate(parts, axis=2)
-        return cls(begins=begins, compliance=compliance, rest=rest, clearance=clearance[0])
+        springs = [1.0 / closure.unloading if closure and closure.unloading else 0.0 for closure in closures]
+        return cls(
+            begins=begins,
+            compliance=compliance,
+            rest=rest,
+            clearance=clearance[0],
+            springs=np.repeat(springs, counts) if any(springs) else None,
+        )
+
+    def after(self, borne: Borne | None) -> PairClosure:
+        """The closures of pairs with a past: where they do not spring back along it, with a line of that before.
+
+        Examples
+        --------
+        >>> pairs = PairClosure.of([Closure([(0.0, 0.0), (0.1, 2.0)], unloading=40.0)], [0.0], [1])
+        >>> past = pairs.borne(None, np.array([2.0]), np.ones(1))
+        >>> pairs.after(past).at(np.array([1.0])).tolist(), past.taken.round(12).tolist()
+        ([0.075], [0.05])
+        """
+        if self.springs is None:
+            return self
+        peak = np.zeros(len(self.springs)) if borne is None else np.where(self.springs > 0.0, borne.pressure, 0.0)
+        back = np.where(peak > 0.0, self.springs, self.compliance[0])
+        kept = np.where(peak > 0.0, self.at(peak) - back * peak, 0.0)
+        return replace(
+            self,
+            begins=np.concatenate([np.zeros((1, len(peak))), np.maximum(self.begins, peak)]),
+            compliance=np.concatenate([back[None], self.compliance]),
+            rest=np.concatenate([kept[None], self.rest]),
+        )
+
+    def borne(self, before: Borne | None, pressure: Array, area: Array) -> Borne | None:
+        """What pairs remember; None where they need no past.
+
+        Parameters
+        ----------
+        before : what they remembered; None for nothing
+        pressure, area : (n,) of the moment, and forces per pressure
+        """
+        if self.springs is None:
+            return None
+        peak = pressure if before is None else np.maximum(before.pressure, pressure)
+        lost = np.where(self.springs > 0.0, self.energy(peak) - self.springs * peak**2 / 2.0, 0.0)
+        return Borne(pressure=frozen(peak), taken=frozen(area * lost))
 
     def among(self, kept: BoolArray) -> PairClosure:
         """The closures of the kept pairs, (n,)."""
@@ -218,6 +297,7 @@ class PairClosure:
             compliance=self.compliance[:, kept],
             rest=self.rest[:, kept],
             clearance=self.clearance[kept],
+            springs=None if self.springs is None else self.springs[kept],
         )
 
     def line(self, pressure: Array) -> IntArray:
@@ -234,6 +314,18 @@ class PairClosure:
         pairs = np.arange(len(line))
         ends = np.concatenate([self.begins, np.full((1, len(pairs)), np.inf)])
         return ends[line, pairs], ends[line + 1, pairs]
+
+    def beside(self, line: IntArray, below: BoolArray, above: BoolArray) -> IntArray:
+        """(n,) The lines that follow on others.
+
+        Parameters
+        ----------
+        line : (n,) numbers of those
+        below, above : (n,) pairs that go on to lower and to higher pressures
+        """
+        low, high = self.ends(line)
+        lower, upper = (self.begins < low).sum(axis=0) - 1, (self.begins <= high).sum(axis=0) - 1
+        return np.where(below, np.maximum(lower, 0), np.where(above, upper, line)).astype(np.int64)
 
     def at(self, pressure: Array) -> Array:
         """(n,) Closure, length, at pressures (n,) >= 0."""
@@ -266,6 +358,8 @@ class PairClosure:
     def parameters(self) -> dict[str, Array]:
         """(n,) What there is of every pair by name; NaN where there is none."""
         found = {"clearance of the closure": self.clearance}
+        if self.springs is not None:
+            found["compliance of unloading"] = self.springs
         for k in range(len(self.begins)):
             has = np.isfinite(self.begins[k])
             found |= {

@@ -127,7 +127,7 @@ def certify(
         applied = applied + state.plastic.forces
     residual = constraints.on_free(system.K @ u - applied)
     balance = motions.T @ (state.external + constraints.foundation_forces(u) + of_pairs)
-    moved = (interface.motion(u) + interface.give(r)) / scale.length
+    moved = (interface.motion(u) + interface.give(r, state.borne)) / scale.length
     gap = state.point.gap / scale.length + moved[0]
     normal, tangential = r[0] / scale.force, r[1:] / scale.force
     sliding = moved[1:] - before / scale.length

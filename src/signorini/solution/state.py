@@ -11,6 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.interface.interface import Interface
+from signorini.law.closure import Borne
 from signorini.law.states import OPEN
 from signorini.plasticity.measure import heat_work
 from signorini.plasticity.state import PlasticState
@@ -72,6 +73,7 @@ class State(Short):
     released : energy set free at once since the beginning: in jumps, by changes of the law, by contacts switched off
     plastic : what the points of the bodies remember of plastic flow; None where no body yields
     wear : what the sides have lost by wear; None where none wears
+    borne : what closures remember that do not spring back along their lines; None where none does so
     """
 
     point: LoadPoint
@@ -88,11 +90,22 @@ class State(Short):
     released: float
     plastic: PlasticState | None = None
     wear: WearState | None = None
+    borne: Borne | None = None
 
     @property
     def motion(self) -> Array:
         """(d, n) Motions of the pairs in the contact law since the beginning: gaps and tangential displacements."""
         return np.concatenate([self.gap[None], self.tangential])
+
+    @property
+    def dissipated(self) -> Array:
+        """(n,) By the friction of the pairs, and by what lies between them, since the beginning."""
+        return self.dissipation if self.borne is None else self.dissipation + self.borne.taken
+
+    @property
+    def closing_work(self) -> float:
+        """Energy that closures which do not spring back along their lines have taken, since the beginning."""
+        return 0.0 if self.borne is None else float(self.borne.taken.sum())
 
     @property
     def plastic_work(self) -> float:
@@ -186,6 +199,7 @@ def next_state(
         released=state.released - float(taken),
         plastic=plastic,
         wear=state.wear,
+        borne=interface.borne_after(state.borne, forces),
     )
 
 

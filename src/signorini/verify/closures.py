@@ -38,6 +38,21 @@ def block_on_a_gasket() -> Iterator[Check]:
         )
 
 
+def gasket_in_a_cycle() -> Iterator[Check]:
+    """A block on a gasket that keeps closure: pressed, let go and pressed again, farther."""
+    law = Closure([(0.0, 0.0), (0.1, 2.0), (0.15, 10.0)], unloading=400.0)
+    steps = [Step(scale={"p": part}, path="exact") for part in (0.6, 0.0, 1.0)]
+    pressed, free, again = solve(block_on_a_bed(10.0, law, steps=steps)).steps
+    yield from checks_of(
+        "B19 block on a gasket that keeps closure",
+        ("closure kept of 0.125", -free.contacts[0].gap.mean(), 0.125 - 6.0 / 400.0, 1e-12),
+        ("energy taken", pressed.dissipation, 2.0 * (0.1 + 0.025 * 4.0 - 6.0**2 / 800.0), 1e-12),
+        ("part of the way at which it goes on as before", again.events[-1].load_factor - 2.0, 0.6, 1e-12),
+        ("energy taken then", again.dissipation, 2.0 * (0.025 * 8.0 - (10.0**2 - 6.0**2) / 800.0), 1e-12),
+        source="the lines of the gasket",
+    )
+
+
 def rough_interface() -> Iterator[Check]:
     """A block on roughness of an exponential law: closures of secants, beside the law itself."""
     clearance, touching = _ROUGHNESS

@@ -98,6 +98,7 @@ QUICK: tuple[Case, ...] = (
     vibration.frequencies,
     vibration.bar_in_bed,
     closures.block_on_a_gasket,
+    closures.gasket_in_a_cycle,
     closures.rough_interface,
 )
 SLOW: tuple[Case, ...] = (

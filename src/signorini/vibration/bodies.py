@@ -140,7 +140,8 @@ def _compliance(model: Model, interface: Interface, end: Checkpoint | None) -> A
     closure = interface.closure
     if closure is not None:
         pressure = np.zeros(len(interface)) if end is None else end.state.forces[0] / interface.area
-        own[0] = closure.of_lines(closure.line(pressure))[0] / interface.area
+        now = closure if end is None else closure.after(end.state.borne)
+        own[0] = now.of_lines(now.line(pressure))[0] / interface.area
     own[:, interface.tied] = 0.0  # a tie has none
     return np.concatenate([own, *[own[1:]] * (interface.directions - 2)])
 
