@@ -197,3 +197,12 @@ def test_frequency_steps_that_ask_for_more_are_named(steps: str, said: str, tmp_
     with pytest.raises(sg.InputError) as error:
         load_deck(inp(tmp_path, steps))
     assert said in str(error.value)
+
+
+def test_a_deck_that_is_converted_asks_for_the_same_modes(tmp_path: Path) -> None:
+    path = inp(tmp_path, STATIC + FREQUENCY)
+    assert main(["convert", str(path), "-o", str(tmp_path / "made.toml")]) == 0
+    assert load_deck(tmp_path / "made.toml").modes == load_deck(path).modes
+    loops = toml(tmp_path, ("number = 3", "number = 3\namplitudes = [0.1, 0.2]\njoints = ['open']"))
+    assert main(["convert", str(loops), "-o", str(tmp_path / "made.toml")]) == 0
+    assert load_deck(tmp_path / "made.toml").modes == load_deck(loops).modes

@@ -75,7 +75,7 @@ def convert(options: argparse.Namespace) -> int:
     from signorini.deck.write import write_deck
 
     try:
-        files = write_deck(deck.model, target)
+        files = write_deck(deck.model, target, deck.modes)
     except OSError as error:
         raise InputError(f"cannot write '{target}': {error.strerror}", where=("-o",)) from error
     for note in deck.notes:

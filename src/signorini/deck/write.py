@@ -19,6 +19,7 @@ from signorini.law.closure import Closure
 from signorini.law.friction import FrictionLaw
 from signorini.model.material import Material
 from signorini.model.model import Model
+from signorini.model.modes import ModesRequest
 from signorini.model.varying import Along
 from signorini.model.wear import Wear
 
@@ -27,12 +28,14 @@ _SHAPES = {kind: key for key, kind in reversed(OBSTACLES.items())}  # a sphere i
 _FREE = ("u", "force", "rotation")  # where None means free and is said
 
 
-def write_deck(model: Model, path: Path) -> list[Path]:
+def write_deck(model: Model, path: Path, modes: ModesRequest | None = None) -> list[Path]:
     """Write a deck that is read as the same model, and the mesh that it names.
 
     Parameters
     ----------
+    model : the model
     path : of the TOML file; the mesh is written as ``.vtu`` under the same name
+    modes : that the deck asks for; None: none
 
     Returns
     -------
@@ -47,7 +50,8 @@ def write_deck(model: Model, path: Path) -> list[Path]:
 
     mesh = path.with_suffix(".vtu")
     write_mesh(model.mesh, mesh)
-    path.write_text(toml_text(model, mesh.name), encoding="utf-8")
+    asked = "" if modes is None else "\n".join(("", "[modes]", *_entries(_given(modes)), ""))
+    path.write_text(toml_text(model, mesh.name) + asked, encoding="utf-8")
     return [path, mesh]
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from signorini.deck.inp.card import Card
-from signorini.deck.inp.keywords import HARMLESS, PRINTED, unsupported
+from signorini.deck.inp.keywords import HARMLESS, MODES_WORDS, PRINTED, unsupported
 from signorini.deck.inp.refusals import Refusals
 from signorini.deck.inp.steps import IGNORED
 from signorini.errors import InputError
@@ -54,7 +54,7 @@ def take_modes(cards: list[Card], refusals: Refusals) -> tuple[list[Card], Frequ
     """
     starts = [i for i, card in enumerate(cards) if card.keyword == "STEP"]
     ends = [i for i, card in enumerate(cards) if card.keyword == "END STEP"]
-    asking = next((i for i, card in enumerate(cards) if card.keyword == "FREQUENCY"), None)
+    asking = next((i for i, card in enumerate(cards) if card.keyword in MODES_WORDS), None)
     if asking is None or len(starts) != len(ends) or not starts or asking < starts[0]:
         return cards, None
     number = max(k for k, start in enumerate(starts) if start < asking)
@@ -88,7 +88,7 @@ def _read(step: Card, asking: Card, members: Sequence[Card], alone: bool) -> Fre
     for card in members:
         if card.keyword == "BOUNDARY" and not alone:
             raise card.error("stands in a *FREQUENCY step behind others; expected it in a static step")
-        if card.keyword not in ("FREQUENCY", "BOUNDARY", *_OF_SETS, *PRINTED, *HARMLESS):
+        if card.keyword not in (*MODES_WORDS, "BOUNDARY", *_OF_SETS, *PRINTED, *HARMLESS):
             raise card.error(unsupported(card.keyword, "inside a *FREQUENCY step"))
     try:
         request = ModesRequest(number=row.whole(0, "the number of modes"), preload=not alone)

@@ -45,6 +45,9 @@ STEP_WORDS = (
 )
 """Keywords that are read inside the steps."""
 
+MODES_WORDS = ("FREQUENCY",)
+"""Keywords of a step that asks for natural modes, which is taken out before the others are read."""
+
 STRUCTURE = (
     "ASSEMBLY", "END ASSEMBLY", "END INSTANCE", "END PART", "END STEP", "INCLUDE", "INSTANCE", "PART", "STEP",
 )
