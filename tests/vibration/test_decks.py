@@ -78,6 +78,7 @@ FREQUENCY = "*STEP\n*FREQUENCY\n6\n*NODE FILE\nU\n*END STEP\n"
 STATIC = "*STEP\n*STATIC\n*CLOAD\nTIP,3,.01\n*END STEP\n"
 
 
+@pytest.mark.slow
 def test_the_command_writes_and_tells(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = tmp_path / "out"
     asked = ["--amplitudes", "2e-5", "--joint", "stuck", "--joint", "open"]

@@ -68,7 +68,9 @@ def run_modes(deck: Deck, options: argparse.Namespace, clock: Clock, started: fl
             modes = modes_by_joint(model, request.number, joints, end)
             damping = None
             if history is not None and request.amplitudes:
-                damping = joint_damping(history, request.amplitudes, mode=request.mode, settings=deck.settings)
+                damping = joint_damping(
+                    history, request.amplitudes, mode=request.mode, cycles=request.cycles, settings=deck.settings
+                )
         except InputError as error:
             raise deck.locate(error) from error
         files = _write(deck, modes, damping, folder)

@@ -19,6 +19,10 @@ MOST_MODES = 1000
 """That can be asked for: so many no mesh resolves."""
 
 
+MOST_CYCLES = 1000
+"""At one amplitude: what has not closed by then goes on."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class ModesRequest:
     """The natural modes of a deck, and the loops of one of them.
@@ -30,6 +34,7 @@ class ModesRequest:
     preload : about the end of the steps; otherwise nothing is solved, and pairs without a gap touch
     mode : whose loops are followed, from 1, of the stuck joint
     amplitudes : of the loops, ascending, length; none: no loop
+    cycles : at each amplitude, of which the last is the loop: the first ones may shake down
 
     Raises
     ------
@@ -42,10 +47,12 @@ class ModesRequest:
     preload: bool = True
     mode: int = 1
     amplitudes: Sequence[float] = ()
+    cycles: int = 2
 
     def __post_init__(self) -> None:
         whole(self.number, ("number",), most=MOST_MODES)
         whole(self.mode, ("mode",), most=MOST_MODES)
+        whole(self.cycles, ("cycles",), most=MOST_CYCLES)
         if isinstance(self.joints, str) or not self.joints:
             raise InputError(f"are {self.joints!r}; expected a list of states", where=("joints",))
         for i, joint in enumerate(self.joints):

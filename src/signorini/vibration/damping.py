@@ -26,7 +26,7 @@ from signorini.engine.solve import raise_failure, solve
 from signorini.errors import InputError
 from signorini.model.conditions import Load
 from signorini.model.model import Model
-from signorini.model.modes import ascending
+from signorini.model.modes import MOST_CYCLES, ascending
 from signorini.model.step import Step
 from signorini.settings import SolverSettings
 from signorini.solution.damping import DampingLoop, JointDamping
@@ -38,12 +38,17 @@ from signorini.vibration.modes import natural_modes
 MODAL_FORCE = "modal force"
 """What the load is called, and the set of the nodes that bear it."""
 
-_POINTS = 16  # of every quarter of a loop: what a picture shows as a curve
+_POINTS = 32  # of every half of a loop: what a picture shows as a curve
 _TURN_TOL = 1e-9  # of a step: rounding of load factors
 
 
 def joint_damping(
-    history: History, amplitudes: Sequence[float], *, mode: int = 1, settings: SolverSettings | None = None
+    history: History,
+    amplitudes: Sequence[float],
+    *,
+    mode: int = 1,
+    cycles: int = 2,
+    settings: SolverSettings | None = None,
 ) -> JointDamping:
     """Loops of a mode of the stuck joints about the end of a history, one after the other.
 
@@ -54,6 +59,7 @@ def joint_damping(
     history : with the preload
     amplitudes : ascending, length: the largest displacement that the forces would cause if the joint stayed stuck
     mode : number from 1
+    cycles : at each amplitude, of which the last is the loop: the first ones may shake down
     settings : limits of the methods that solve contact
 
     Raises
@@ -66,6 +72,7 @@ def joint_damping(
     if history.end is None or not history.solved:
         raise InputError("was not finished; expected a solved preload", where=("history",))
     whole(mode, ("mode",))
+    whole(cycles, ("cycles",), most=MOST_CYCLES)
     levels = np.array(ascending(list(amplitudes), ("amplitudes",)))
     if not len(levels):
         raise InputError("are none; expected one length or more", where=("amplitudes",))
@@ -75,13 +82,13 @@ def joint_damping(
         raise InputError(f"is {mode}, a rigid motion; expected a mode that strains something", where=("mode",))
     reach = float(np.linalg.norm(modes.shapes[-1], axis=1).max())
     force = square * levels[-1] / reach
-    model = _loaded(history.model, modes, force, levels / levels[-1])
+    model = _loaded(history.model, modes, force, [_turns(part, cycles) for part in (levels / levels[-1]).tolist()])
     answer = solve(model, start=history.end, settings=settings, raise_on_failure=False)
     finished = [step for step in answer.steps if step.finished]
     if not finished:
         raise_failure(answer)
     start, weights = history.last.displacement, modes.forces[-1]
-    loops = tuple(_loop(number, step, start, weights, force) for number, step in enumerate(finished))
+    loops = tuple(_loop(step, start, weights, force) for step in finished)
     return JointDamping(
         mode=mode,
         frequency=float(modes.frequencies[-1]),
@@ -92,8 +99,13 @@ def joint_damping(
     )
 
 
-def _loaded(model: Model, modes: NaturalModes, force: float, factors: Array) -> Model:
-    """The model with the forces of the last mode on all its nodes, and a step with a loop for every factor."""
+def _turns(part: float, cycles: int) -> list[float]:
+    """Where a load turns that goes to a part of its largest value, and from there to and fro."""
+    return [part, *([-part, part] * cycles)]
+
+
+def _loaded(model: Model, modes: NaturalModes, force: float, turns: Sequence[list[float]]) -> Model:
+    """The model with the forces of the last mode on all its nodes, and a step for each of the turns."""
     given = modes.forces[-1]
     bearing = np.flatnonzero(np.abs(given).any(axis=1))
     if MODAL_FORCE in model.mesh.nodes or any(load.label == MODAL_FORCE for load in model.loads):
@@ -101,15 +113,16 @@ def _loaded(model: Model, modes: NaturalModes, force: float, factors: Array) -> 
     mesh = replace(model.mesh, nodes={**model.mesh.nodes, MODAL_FORCE: bearing})
     load = Load(MODAL_FORCE, nodal_forces=force * given[bearing])
     steps = [
-        Step(name=f"loop {number}", scale={MODAL_FORCE: [part, -part, part]}, at=3 * 2 * _POINTS)
-        for number, part in enumerate(factors.tolist(), start=1)
+        Step(name=f"loop {number}", scale={MODAL_FORCE: way}, at=len(way) * _POINTS)
+        for number, way in enumerate(turns, start=1)
     ]
     return replace(model, mesh=mesh, loads=[*model.loads, load], steps=steps)
 
 
-def _loop(number: int, step: StepResult, start: Array, weights: Array, force: float) -> DampingLoop:
-    """A step from its first turn on: the way back and forth between both ends."""
-    turn = number + 1.0 / 3.0 - _TURN_TOL
+def _loop(step: StepResult, start: Array, weights: Array, force: float) -> DampingLoop:
+    """The last two segments of a step: the way back and forth between both ends."""
+    segments = [one.load_factor for one in step.instants if one.what == "segment"]
+    turn = segments[-3] - _TURN_TOL
     fields = {one.load_factor: one.displacement for one in step.instants} | {step.load_factor: step.displacement}
     way = [one for one in step.instants if one.load_factor >= turn and fields[one.load_factor] is not None]
     moved = [u - start for one in way if (u := fields[one.load_factor]) is not None]
