@@ -22,6 +22,9 @@ from signorini.model.step import Step
 _FAR = np.array([0.2, 0.5, 1.0, 1.8, 3.0, 5.0, 8.0, 12.0, 18.0, 26.0])
 """Where nodes are beyond the fine part of a half-plane, half-widths of contact."""
 
+_GROWTH = 1.4  # of cells below and beside the fine part of a half-plane, from one to the next
+_DEPTH = 50.0  # half-widths: a bed is some four times as deep, and stretches by 1 % of what rolling asks for
+
 HALF_WIDTH = 1.0
 """Of the contact of `dragged_cylinder`, mm."""
 
@@ -103,6 +106,44 @@ def driven_wheel(*, ratio: float, ways: tuple[float, float], across: int, fricti
         steps=[
             Step(name="press", scale={"wheel": 1.0, "move": 0.0}),
             Step(name="roll", scale={"wheel": 1.0, "move": ways[0] / sum(ways)}),
+            Step(name="on", scale={"wheel": 1.0, "move": 1.0}),
+        ],
+    )
+
+
+def free_wheel(*, friction: float, ways: tuple[float, float], across: int) -> Model:
+    """A rigid wheel, R 2000, that rolls freely on a half-plane with half-widths of 1 as an aluminium roller on steel.
+
+    How two bodies roll depends on their modulus together and on Dundurs' beta alone, which is (1 - 2 nu) / (2 (1 - nu))
+    where one is rigid: with this nu the 0.14385 of aluminium on steel. The radius is large, for the normals of a rigid
+    wheel are tilted where those between two rollers of one radius are not.
+
+    Parameters
+    ----------
+    friction : Coulomb's coefficient
+    ways : of two steps in which it rolls, half-widths
+    across : quadratic cells in the half-width
+    """
+    radius, E, nu, whole = 2000.0, 200.0, 0.41599, sum(ways)
+    force = math.pi * E / (1.0 - nu**2) / (4.0 * radius)
+    cell = 1.0 / across
+    x = np.linspace(-1.4, whole + 1.4, round((whole + 2.8) * across) + 1)
+    y = np.linspace(-1.2, 0.0, round(1.2 * across) + 1)
+    far = np.cumsum(1.3 * cell * _GROWTH ** np.arange(math.ceil(math.log(_DEPTH * across, _GROWTH))))
+    bed = rectangle(
+        x=np.concatenate([x[0] - far[::-1], x, x[-1] + far]), y=np.concatenate([y[0] - far[::-1], y]), cells="quad9"
+    )
+    wheel = Rigid("wheel", Circle((0.0, radius), radius), u=(0.0, None), force=(None, -force), rotation=None)
+    return Model(
+        mesh=bed,
+        kind="plane strain",
+        bodies=[Body(next(iter(bed.bodies)), Elastic(E=E, nu=nu))],
+        supports=[Support("bottom", u=(-whole, 0.0), name="move")],
+        obstacles=[wheel],
+        contacts=[Contact("top", "wheel", friction=friction, sliding="finite", name="tread")],
+        steps=[
+            Step(name="press", scale={"wheel": 1.0, "move": 0.0}),
+            Step(name="roll", scale={"wheel": 1.0, "move": ways[0] / whole}),
             Step(name="on", scale={"wheel": 1.0, "move": 1.0}),
         ],
     )

@@ -9,12 +9,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.api import solve
-from signorini.gallery.sliding import HALF_WIDTH, PRESSING, dragged_cylinder, driven_wheel, half_width
+from signorini.gallery.sliding import HALF_WIDTH, PRESSING, dragged_cylinder, driven_wheel, free_wheel, half_width
 from signorini.solution import results
 from signorini.verify.check import Check, checks_of
 
 _FRICTION = 0.3  # coefficient of all of them
 _RATIO = 0.64  # of the tangential force over that of sliding: Carter's case of which CONTACT's guide tells the numbers
+
+_ROLLED = {1e-3: 5.259e-4, 0.05: 4.29e-4, 10.0: 3.59e-4}  # creepage by friction: 0.457 kappa a / R, CONTACT's guide
+_DISSIMILAR = 0.2877 * 0.1 / 25.0  # kappa a / R of its rollers
+_PRESSED = 103.81 / 103.14  # largest pressure with that much friction over the one with hardly any
 
 
 def sliding_cylinder() -> Iterator[Check]:
@@ -50,4 +54,24 @@ def rolling_wheel() -> Iterator[Check]:
         ("part of the contact that sticks", sticks, math.sqrt(1.0 - _RATIO), 0.05),
         ("creepage", creepage, _FRICTION * width / 100.0 * (1.0 - math.sqrt(1.0 - _RATIO)), 0.08),
         source="Carter (1926); Johnson (1985), section 8.3",
+    )
+
+
+def dissimilar_rollers() -> Iterator[Check]:
+    """Bentall and Johnson's aluminium roller, free to roll on one of steel: it creeps, and friction holds it back."""
+    ways, peaks = (3.0, 1.0), []
+    for friction, reference in _ROLLED.items():
+        *_, roll, on = solve(free_wheel(friction=friction, ways=ways, across=6)).steps
+        begin, end = (np.asarray(step.obstacles["wheel"].rotation, np.float64) for step in (roll, on))
+        creepage = 1.0 - 2000.0 * abs(float(end - begin)) / ways[1]
+        peaks.append(on.contacts[0].pressure.max())
+        yield from checks_of(
+            f"B15 rollers of aluminium and steel, mu = {friction:g}",
+            ("creepage of free rolling", creepage * 2000.0 / 0.2877 * _DISSIMILAR, reference, 1.5e-2),
+            source="Bentall, Johnson (1967); CONTACT, user guide 5.3",
+        )
+    yield from checks_of(
+        "B15 rollers of aluminium and steel",
+        ("largest pressure, mu = 10 over 0.001", peaks[-1] / peaks[0], _PRESSED, 1e-3),
+        source="CONTACT, user guide 5.3",
     )

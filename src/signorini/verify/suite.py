@@ -120,6 +120,7 @@ SLOW: tuple[Case, ...] = (
     indentation.cone_in_a_block,
     indentation.rolling,
     wear.worn_cylinder,
+    sliding.dissimilar_rollers,
 )
 
 
