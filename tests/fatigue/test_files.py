@@ -171,3 +171,43 @@ def test_what_cannot_be_answered_afterwards_is_refused_before(tmp_path, capsys):
     )
     (tmp_path / "deck.toml").write_text(yields.replace('name = "cycles"', 'name = "cycles"\nat = "events"'))
     assert main(["check", str(tmp_path / "deck.toml"), "--quiet"]) == 0
+
+
+KEYWORDS = """*NODE, NSET=ALL
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+*ELEMENT, TYPE=CPS4, ELSET=BODY
+1, 1, 2, 3, 4
+*MATERIAL, NAME=STEEL
+*ELASTIC
+200000., 0.3
+*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL
+1.,
+*BOUNDARY
+1, 1, 2
+4, 1, 1
+*STEP
+*STATIC
+*CLOAD
+2, 1, 50.
+3, 1, 50.
+*END STEP
+"""
+
+
+def test_decks_of_keywords_take_the_tables_of_another_file(tmp_path, capsys):
+    deck, asked = tmp_path / "bar.inp", tmp_path / "asked.toml"
+    deck.write_text(KEYWORDS)
+    asked.write_text('[[fatigue]]\ncriterion = "SWT"\nwhere = "ALL"\n')
+    assert main(["run", str(deck), "--fatigue", str(asked), "-o", str(tmp_path / "out"), "--quiet"]) == 0
+    rows = (tmp_path / "out" / "fatigue.csv").read_text().splitlines()
+    assert len(rows) == 1 + 4
+    assert float(rows[1].split(",")[7]) == pytest.approx(100.0 * 50.0 / 2e5)
+    asked.write_text('[[fatigue]]\ncriterion = "SWT"\nwhere = "AL"\n')
+    assert main(["check", str(deck), "--fatigue", str(asked)]) == 2
+    assert f"{asked}:3: fatigue[0].where: unknown contact, boundary, node set or body 'AL'" in capsys.readouterr().err
+    asked.write_text("title = 'none'\n")
+    assert main(["check", str(deck), "--fatigue", str(asked)]) == 2
+    assert "fatigue: there is none; expected [[fatigue]] tables" in capsys.readouterr().err

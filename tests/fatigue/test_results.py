@@ -42,6 +42,13 @@ def test_a_beam_on_its_side_and_below(bent):
         np.testing.assert_allclose(900.0**2 / 1e5 * life**-0.2 + 270.0 * life**-0.7, size**2 / 1e5, rtol=1e-9)
 
 
+def test_gradients_on_the_sides_of_a_beam(bent):
+    """sigma_xx is 100 y at most, so that its slope into the beam is what it is on the side with the opposite sign."""
+    history = bent.stress_history(("bottom", "top"))
+    np.testing.assert_allclose(history.gradient, -history.stress, atol=1e-6)
+    assert bent.stress_history("block").gradient.shape == (0, 3, 6)
+
+
 def test_limits_of_a_beam(bent):
     for kind in (sg.fatigue.Crossland, sg.fatigue.DangVan):
         found = bent.fatigue(kind(bending_limit=200.0, torsion_limit=130.0), where=("bottom", "top"))

@@ -86,10 +86,15 @@ def convert(options: argparse.Namespace) -> int:
 
 def _load(options: argparse.Namespace) -> Deck:
     """Read ``options.deck`` as the options say."""
-    return load_deck(
+    deck = load_deck(
         options.deck,
         small_strain=options.small_strain,
         deck_increments=options.increments == "deck",
         allow=options.allow,
         include=options.include,
     )
+    if options.fatigue is None:
+        return deck
+    from signorini.deck.fatigue import asking_for
+
+    return asking_for(deck, Path(options.fatigue))

@@ -27,6 +27,7 @@ def make_parser() -> argparse.ArgumentParser:
     shared = argparse.ArgumentParser(add_help=False)
     shared.add_argument("--debug", action="store_true", help="show where an internal error happened")
     keywords = _deck_options()
+    keywords.add_argument("--fatigue", metavar="FILE", help="ask for the [[fatigue]] tables of a TOML file instead")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     _add_run(commands, [shared, keywords])

@@ -8,17 +8,16 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from signorini.checks import choice, text
+from signorini.deck.fatigue import deck_fatigue
 from signorini.deck.keys import check_keys, make, table, tables
 from signorini.deck.varying import deck_value, deck_values
 from signorini.errors import InputError, Where, one_of
-from signorini.fatigue.criteria import CRITERIA
 from signorini.law.closure import Closure
 from signorini.law.friction import LAWS, FrictionLaw
 from signorini.model.body import Body
 from signorini.model.bolt import Bolt
 from signorini.model.conditions import Foundation, Load, Support
 from signorini.model.contact import Contact
-from signorini.model.fatigue import Fatigue
 from signorini.model.links import CyclicSymmetry, Equation, RigidBody
 from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.mesh import Mesh
@@ -133,22 +132,11 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
                     entry = {own: value for own, value in entry.items() if own != "plane"}  # the mesh is cut there
                 made = make(kinds[key], entry, where)
             elif key == "fatigue":
-                made = _fatigue(entry, where)
+                made = deck_fatigue(entry, where)
             else:
                 made = (_contact if key == "contact" else _obstacle)(entry, where, reach, mesh)
             parts.setdefault(field, []).append(made)
     return parts
-
-
-def _fatigue(entry: dict[str, Any], where: Where) -> Fatigue:
-    """A request whose criterion is ``"NAME"`` or ``{ name = "NAME", ... }`` with its constants."""
-    given, inside = dict(entry), (*where, "criterion")
-    if "criterion" in given:
-        value = given["criterion"]
-        constants = dict(value) if isinstance(value, dict) else {"name": value}
-        name = choice(constants.pop("name", ""), CRITERIA, inside, "fatigue criterion")
-        given["criterion"] = make(CRITERIA[name], constants, inside)
-    return make(Fatigue, given, where)
 
 
 def _varied(entry: dict[str, Any], where: Where, reach: Reach, dimension: int) -> dict[str, Any]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -145,8 +146,12 @@ def probe_of(
     body : index of the body that they are in
     """
     if points is None:
-        nodes = named_places(space, model, where).nodes
-        return StressProbe.at_nodes(space, model, nodes), model.mesh.points[nodes[:, 1]]
+        places = named_places(space, model, where)
+        nodes, given = places.nodes, model.mesh.points[places.nodes[:, 1]]
+        if not np.isnan(places.inward).any():
+            with suppress(InputError):  # at the end of a side that leans over the normal there leaves the body
+                return StressProbe.on_surface(space, model, nodes, places.inward), given
+        return StressProbe.at_nodes(space, model, nodes), given
     return StressProbe.at_points(space, model, points[:, None], np.full(len(points), body)), points
 
 

@@ -99,9 +99,8 @@ def stress_history(history: History, probe: StressProbe, points: Array, *, steps
     looked_at = spans(history, steps)
     recovery = cache(partial(Recovery.of, history))
     rows = [row for span in looked_at for row in _along(span, probe, recovery)]
-    stress = np.stack([row[1] for row in rows], axis=1)
-    flowed = np.stack([row[2] for row in rows], axis=1)
-    single = len(probe.nodes) == len(points) and probe.weights.nnz == len(points)
+    stress, gradient, flowed = (np.stack([row[1][k] for row in rows], axis=1) for k in range(3))
+    single = probe.weights.nnz == len(points)
     node = probe.nodes[probe.weights.indices, 1] if single else np.full(len(points), -1)
     return StressHistory(
         points=frozen(points),
@@ -110,24 +109,28 @@ def stress_history(history: History, probe: StressProbe, points: Array, *, steps
         load_factor=frozen(np.array([row[0] for row in rows])),
         stress=frozen(stress),
         strain=frozen(probe.elastic_strain(stress) + flowed),
+        gradient=frozen(gradient),
         exact=all(span.step.path == "exact" for span in looked_at) or _is_linear(history),
     )
 
 
-def _along(span: Span, probe: StressProbe, recovery: Callable[[], Recovery]) -> Iterator[tuple[float, Array, Array]]:
-    """Load factor, stresses and plastic strains at the moments of a step, each (p, 6)."""
+def _along(
+    span: Span, probe: StressProbe, recovery: Callable[[], Recovery]
+) -> Iterator[tuple[float, tuple[Array, Array, Array]]]:
+    """Load factors of the moments of a step, and what `_in_state` says of each."""
     if span.at_rest:
-        yield 0.0, np.zeros((len(probe.body), 6)), np.zeros((len(probe.body), 6))
+        nothing = np.zeros((len(probe.body), 6))
+        yield 0.0, (nothing, nothing if probe.slopes is not None else nothing[:0], nothing)
     if span.before is not None:
-        yield (span.before.load_factor, *_in_state(probe, span.before, span.before.displacement))
+        yield span.before.load_factor, _in_state(probe, span.before, span.before.displacement)
     missing = [moment for moment in span.moments[:-1] if moment.displacement is None]
     found = recovery().displacements(span.step, missing) if missing else iter(())
     for moment in span.moments[:-1]:
         displacement = next(found) if moment.displacement is None else moment.displacement
-        yield (moment.load_factor, *_in_state(probe, moment, displacement))
+        yield moment.load_factor, _in_state(probe, moment, displacement)
     for _ in found:  # what is left compares what was found with the end
         pass
-    yield (span.step.load_factor, *_in_state(probe, span.step, span.step.displacement))
+    yield span.step.load_factor, _in_state(probe, span.step, span.step.displacement)
 
 
 def _is_linear(history: History) -> bool:
@@ -135,12 +138,12 @@ def _is_linear(history: History) -> bool:
     return not history.model.contacts and not history.model.yields
 
 
-def _in_state(probe: StressProbe, state: StepResult | Instant, displacement: Array) -> tuple[Array, Array]:
-    """Stresses and plastic strains of the places in one state, each (p, 6)."""
+def _in_state(probe: StressProbe, state: StepResult | Instant, displacement: Array) -> tuple[Array, Array, Array]:
+    """Stresses, their derivatives and plastic strains of the places in one state, each (p, 6)."""
     if state.plastic is None:
         deformed = DeformedBodies.of(probe.space, probe.model, displacement, state.factors)
-        stress = probe.stress(deformed)
-        return stress, np.zeros_like(stress)
+        stress, gradient = probe.stress(deformed)
+        return stress, gradient, np.zeros_like(stress)
     strains = by_family(probe.space, probe.model, state.plastic.state.strain)
     deformed = DeformedBodies.of(probe.space, probe.model, displacement, state.factors, strains)
     width = 4 if probe.model.dimension == 2 else 6
@@ -152,4 +155,4 @@ def _in_state(probe: StressProbe, state: StepResult | Instant, displacement: Arr
     tensor = np.zeros((len(probe.body), 6))
     tensor[:, :width] = probe.mean(flowed, width)
     tensor[:, 3:] *= 0.5
-    return probe.stress(deformed), tensor
+    return (*probe.stress(deformed), tensor)

@@ -16,7 +16,8 @@ from signorini.fatigue.ball import smallest_ball
 
 _SPACING = np.radians(6.0)  # between planes of the grid: maxima are wider than 45 degrees
 _STARTS = 4  # of the best planes of the grid, apart from each other, from which the maximum is sought
-_FINEST = 1e-7  # radians: what is left then of a smooth maximum is rounding, of one with a kink 1e-7
+_FINEST = 1e-6  # radians: what is left then of a smooth maximum is rounding, of one with a kink 1e-6
+_PROMISING = 0.9  # of the largest parameter: a maximum is at most some hundredths above the nearest plane of the grid
 _SAME_MAXIMUM = 3.0  # spacings: planes of the grid that are nearer lead to one maximum
 _BETTER = 1e-12  # of a parameter: planes that are alike to rounding do not replace the first
 
@@ -56,7 +57,7 @@ def critical_planes(stress: Array, strain: Array, grid: Array, shear: bool, slop
         found[i, 0] = -1.0
         for _ in range(_STARTS):
             best = int(np.argmax(values))
-            if values[best] < 0.0:
+            if values[best] < _PROMISING * found[i, 0] or values[best] < 0.0:
                 break
             for m in range(len(grid)):
                 if abs((grid[m] * grid[best]).sum()) > apart:

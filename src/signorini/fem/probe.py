@@ -17,6 +17,8 @@ from signorini.fem.space import Space
 from signorini.fem.stress import DeformedBodies, nodal_averages
 from signorini.model.model import Model
 
+_DEPTH = 1e-3  # of a cell: how far below a surface stresses are compared with those on it
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class StressProbe:
@@ -29,6 +31,7 @@ class StressProbe:
     nodes : (e, 2) bodies and nodes that they depend on
     weights : (p, e) of these
     within : the cells around them
+    slopes : (p, e) weights of derivatives along a direction, per length; None where none is asked for
     """
 
     space: Space
@@ -37,6 +40,7 @@ class StressProbe:
     nodes: IntArray
     weights: sp.csr_array
     within: tuple[Group, ...]
+    slopes: sp.csr_array | None = None
 
     @classmethod
     def of(cls, space: Space, model: Model, nodes: IntArray, weights: sp.csr_array, body: IntArray) -> StressProbe:
@@ -102,11 +106,38 @@ class StressProbe:
         weights = sp.block_diag([probe.weights for probe in probes], format="csr")
         return cls.of(first.space, first.model, nodes, sp.csr_array(weights), np.concatenate([p.body for p in probes]))
 
-    def stress(self, deformed: DeformedBodies) -> Array:
-        """(p, 6) Stresses of bodies in one state, as those of `signorini.fem.stress.body_stresses`."""
+    @classmethod
+    def on_surface(cls, space: Space, model: Model, nodes: IntArray, inward: Array) -> StressProbe:
+        """At nodes of surfaces, with the derivatives into the bodies there.
+
+        Parameters
+        ----------
+        space, model : of the bodies
+        nodes : (p, 2) body and node of the mesh
+        inward : (p, d) unit normals
+
+        Raises
+        ------
+        InputError
+            If a normal leaves its body at once, at the end of a side.
+        """
+        points = model.mesh.points[nodes[:, 1]]
+        depth = _DEPTH * _cell_sizes(space, nodes[:, 1])
+        here = cls.at_nodes(space, model, nodes)
+        below = cls.at_points(space, model, (points + depth[:, None] * inward)[:, None], nodes[:, 0])
+        both, p = cls.together([here, below]), len(nodes)
+        slopes = sp.diags_array(1.0 / depth) @ (both.weights[p:] - both.weights[:p])
+        return replace(both, body=nodes[:, 0], weights=both.weights[:p], slopes=sp.csr_array(slopes))
+
+    def stress(self, deformed: DeformedBodies) -> tuple[Array, Array]:
+        """(p, 6) Stresses of bodies in one state, as those of `signorini.fem.stress.body_stresses`, and derivatives.
+
+        Derivatives are (0, 6) where none are asked for.
+        """
         components = elasticities(self.model).shape[1]
         found = deformed.in_space(self._at_nodes(deformed.stress, components), self.nodes[:, 1])
-        return np.asarray(self.weights @ found)
+        slopes = np.zeros((0, 6)) if self.slopes is None else self.slopes @ found
+        return np.asarray(self.weights @ found), np.asarray(slopes)
 
     def mean(self, at_best: Callable[[Group], Array], components: int) -> Array:
         """(p, components) Values that cells have at their best points, see `signorini.fem.stress.nodal_averages`."""
@@ -130,3 +161,12 @@ class StressProbe:
             own = self.nodes[:, 0] == body
             found[own] = values[np.searchsorted(nodes, self.nodes[own, 1])]
         return found
+
+
+def _cell_sizes(space: Space, nodes: IntArray) -> Array:
+    """(p,) Smallest extents of the cells at nodes, length."""
+    smallest = np.full(len(space.mesh.points), np.inf)
+    for block in space.blocks:
+        size = np.ptp(space.mesh.points[block.cells], axis=1).min(axis=1)
+        np.minimum.at(smallest, block.cells, size[:, None])
+    return np.asarray(smallest[nodes])

@@ -22,6 +22,8 @@ class StressHistory(Short):
     stress : (p, t, 6) force per area: xx, yy, zz, xy, yz, xz, tension positive; of axisymmetric bodies radial, axial,
         hoop and their shear
     strain : (p, t, 6) of the tensor, elastic and plastic, without what temperature expands
+    gradient : (p, t, 6) derivatives of the stress into the body along the normal, force per area and length; (0, t, 6)
+        where places are not all on boundaries, or a normal leaves its body at the end of a side
     exact : whether the paths of its steps are: otherwise stresses between moments are not known to be linear
     """
 
@@ -31,4 +33,5 @@ class StressHistory(Short):
     load_factor: Array
     stress: Array
     strain: Array
+    gradient: Array
     exact: bool
