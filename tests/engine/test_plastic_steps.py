@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.engine import first_yield, plastic_solver, plastic_steps
+from signorini.engine import first_yield, plastic_rounds, plastic_solver, plastic_steps
 from signorini.engine.chord import Chord
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.gallery.cylinder import zhu_cylinder
@@ -116,7 +116,7 @@ def residuals(law, kind, *, rough, **limits):
     ----------
     law, kind : how it yields, and the kind of the model
     rough : on a plane with friction, or held at its foot
-    limits : of `plastic_solver`, in place of its own
+    limits : of `plastic_rounds`, in place of its own
     """
     lacks, measure = [], PlasticSolver._lack
     model = sg.Model(
@@ -129,7 +129,8 @@ def residuals(law, kind, *, rough, **limits):
     )
     with (
         mock.patch.object(PlasticSolver, "_lack", lambda *given: lacks.append(measure(*given)) or lacks[-1]),
-        mock.patch.multiple(plastic_solver, **({"_KEPT_FROM": 0.0, "_BALANCED": 1e-13} | limits)),
+        mock.patch.object(plastic_solver, "_BALANCED", limits.pop("_BALANCED", 1e-13)),
+        mock.patch.multiple(plastic_rounds, **({"_KEPT_FROM": 0.0, "_NEARER_ROUNDS": 0} | limits)),
     ):
         sg.solve(model)
     return np.array(lacks)

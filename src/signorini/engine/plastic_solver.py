@@ -17,8 +17,7 @@ Anal. 49:1715.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -26,12 +25,12 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
 from signorini.engine.increment import Increment, IncrementAnswer, Mechanism
+from signorini.engine.plastic_rounds import Rounds
 from signorini.engine.plastic_search import LineSearch
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
-from signorini.linalg.anderson import anderson
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.outcome import Outcome
 from signorini.plasticity.bodies import PlasticResponse
@@ -48,22 +47,10 @@ _MAX_ROUNDS = 200  # of one increment: Newton takes 4 to 16, kept factors some 4
 _LEFT_PARTS = (0.0, 1e-6, 1e-4, 1e-2)  # of the elastic law, left in place where a tangent is singular without it
 _STIFFER_PARTS = (1e-4, 0.1)  # of the elastic law, left in place where contact finds no answer on a softer tangent
 _SEARCH_FROM = 0.5  # of the residual before: a step that leaves more is looked at
-_KEPT_GAIN = 0.03  # of the residual before: a full step that leaves less has a tangent that will do once more
-_KEPT_FROM = 1e-6  # of the size of forces: below it that pays, above it costs rounds
-_ANDERSON_DEPTH = 10  # rounds that Anderson's method looks back on: with 6 a tenth more of them, with 15 as many
-_TANGENT_DECADES = 0.7  # that a new tangent gains; a kept one is worth it as long as it gains its share of the price
-_PATIENCE = 3  # rounds in which a kept tangent has to gain that, together: single ones rise and fall
-_SHORTER = 0.5  # of the first step on it: a tangent whose steps are shorter than that may be waited for
-_LOST = 10.0  # times the first residual on it: beyond that it is not
 _SUBSTITUTION = 40.0  # operations that take as long as to move an entry of the factor through memory in one round
 _FLOWING = 30.0  # of the first, elastic step: longer ones, again and again, are bodies that flow away
 _FARTHER = 30.0  # times that, where the mechanism is sought more closely: what volume changes falls by as much
 _MAX_LEAP = 10.0  # of how far bodies have moved: a longer step is cut, a soft tangent knows no better
-_STEADY = 0.5  # of the step before: steps of bodies that flow away do not fall below it
-_FLOWING_STEPS = 4  # in a row: so many of these are flow that runs away
-_DRIVEN_STEPS = 2  # in a row: on so many of these loads do more work than is taken, a single one may have turned
-_MECHANISMS = 8  # of the longest steps: each bounds the load, and the last need not bound it best
-_MECHANISM_ROUNDS = 12  # rounds: after so many the mechanism is known to four digits
 _MAX_LENGTHS = 1e7  # of the length of the data: beyond that arithmetic spoils the mechanism
 
 
@@ -83,91 +70,6 @@ class _Tangent:
     K: sp.csr_array
     S: sp.csr_array | None = None
     left: float = 1.0
-
-
-@dataclass(kw_only=True, eq=False)
-class _Rounds:
-    """What the rounds of an increment have left.
-
-    Attributes
-    ----------
-    residuals, steps : of every round: what equilibrium lacks, and the part of the step that was taken
-    lengths : of every step, the largest displacement
-    powers : what equilibrium lacks, on every step: work that loads do there beyond what bodies and pairs take
-    inputs, outputs : of the rounds on the factor at hand: x and what it became
-    factorisations : of tangents
-    mechanisms : the last step and the longest ones: where flow runs away one of them is nearest to the mechanism
-    least : part of the elastic law that is left in place from the start, once contact found nothing on a softer tangent
-    """
-
-    residuals: list[float] = field(default_factory=list)
-    steps: list[float] = field(default_factory=list)
-    lengths: list[float] = field(default_factory=list)
-    powers: list[float] = field(default_factory=list)
-    inputs: list[Array] = field(default_factory=list)
-    outputs: list[Array] = field(default_factory=list)
-    factorisations: int = 0
-    mechanisms: tuple[Mechanism, ...] = ()
-    least: float = 0.0
-
-    @property
-    def last(self) -> float:
-        """Residual of the last round."""
-        return self.residuals[-1] if self.residuals else np.inf
-
-    def run_away(self, beyond: float) -> bool:
-        """Whether steps stay longer than so many times the first, and loads do more work on them than is taken.
-
-        A little above the limit steps are long before they are the mechanism, and not all flows in their direction.
-        """
-        if len(self.lengths) < _MECHANISM_ROUNDS:
-            return False
-        recent = self.lengths[-_FLOWING_STEPS - 1 :]
-        steady = all(two > _STEADY * one for one, two in pairwise(recent))
-        return steady and min(recent) > beyond * self.lengths[0] and min(self.powers[-_DRIVEN_STEPS:]) > 0.0
-
-    def add(self, residual: float, left: Array, step: float, motion: Mechanism) -> None:
-        """A round.
-
-        Parameters
-        ----------
-        residual, left : what equilibrium lacks, of the size of the forces and (z,)
-        step, motion : the part of the step that was taken, and the step
-        """
-        length = float(np.abs(motion.free).max(initial=0.0))
-        self.powers.append(float(left @ motion.free))
-        if np.isfinite(residual):
-            others = sorted(self.mechanisms, key=lambda one: float(np.abs(one.free).max(initial=0.0)), reverse=True)
-            self.mechanisms = (motion, *others[:_MECHANISMS])
-        self.residuals.append(residual)
-        self.steps.append(step)
-        self.lengths.append(length)
-
-    def gains(self, share: float) -> bool:
-        """Whether the factor at hand still gains that share of a new tangent's decades a round, or soon will again.
-
-        Residuals on it rise and fall; while steps shorten, those of a few rounds count together.
-        """
-        here, steps = (each[-len(self.inputs) - 1 :] for each in (self.residuals, self.lengths))
-        within = _PATIENCE if steps[-1] < _SHORTER * steps[0] else 1
-        if len(here) <= within:
-            return here[-1] <= _LOST * here[0]
-        before, now = min(here[:-within]), min(here[-within:])
-        return now <= 10.0 ** (-_TANGENT_DECADES * share * within) * before
-
-    def gained(self) -> bool:
-        """Whether the last full step gained so much that its tangent will do once more."""
-        if len(self.residuals) < 2 or self.steps[-1] < 1.0:
-            return False
-        return self.residuals[-1] < min(_KEPT_GAIN * self.residuals[-2], _KEPT_FROM)
-
-    def accelerated(self, x: Array, became: Array, scale: Array) -> Array:
-        """The next x by Anderson's method, residuals measured over ``scale``."""
-        self.inputs, self.outputs = (
-            [*self.inputs, x][-_ANDERSON_DEPTH - 1 :],
-            [*self.outputs, became][-_ANDERSON_DEPTH - 1 :],
-        )
-        return anderson(self.inputs, self.outputs, scale)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -249,7 +151,7 @@ class PlasticSolver:
 
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment by backward Euler, contact and flow rule at its end."""
-        rounds, system, bodies = _Rounds(), increment.system, self.tangents.yielding
+        rounds, system, bodies = Rounds(), increment.system, self.tangents.yielding
         T, state = system.constraints.transform, increment.state
         old = bodies.untouched() if state.plastic is None else state.plastic
         heat = bodies.heat(increment.point.factors)
@@ -281,11 +183,12 @@ class PlasticSolver:
             asked = _LACK_IN_ROUNDS * kept <= _BALANCED or len(rounds.steps) == 1  # of contact for all its digits
             parted = answer.lost > _FITTING * self.scale.length
             softest = tangent.S is not None and not rounds.least
-            balanced = step == 1.0 and lack <= _BALANCED
+            far = float(np.abs(answer.free).max(initial=0.0))
+            balanced = step == 1.0 and lack <= _BALANCED and rounds.near(far, _BALANCED)
             if balanced and (not parted or (asked and not softest)):
                 return self._settled(increment, old, answer, after, rounds)
-            far = not np.isfinite(lack) or np.abs(answer.free).max(initial=0.0) > _MAX_LENGTHS * self.scale.length
-            if rounds.run_away(self.flowing) or far or len(rounds.steps) >= _MAX_ROUNDS:
+            lost = not np.isfinite(lack) or far > _MAX_LENGTHS * self.scale.length
+            if rounds.run_away(self.flowing) or lost or len(rounds.steps) >= _MAX_ROUNDS:
                 words = f"plastic flow did not settle in {len(rounds.steps)} rounds ({lack:.1e} of the forces left)"
                 return replace(answer, outcome=Outcome.NOT_FOUND, message=words, mechanisms=rounds.mechanisms)
             reached = answer, after
@@ -308,7 +211,7 @@ class PlasticSolver:
         old: PlasticState,
         answer: IncrementAnswer,
         after: PlasticResponse,
-        rounds: _Rounds,
+        rounds: Rounds,
     ) -> IncrementAnswer:
         """The last answer with what points of yielding bodies remember, and the work that they have taken."""
         bodies, state = self.tangents.yielding, increment.state
@@ -339,7 +242,7 @@ class PlasticSolver:
         """What equilibrium lacks, (z,), of the size of the forces."""
         return float(np.abs(left).max(initial=0.0)) / self.scale.force
 
-    def _pays(self, tangent: _Tangent, rounds: _Rounds) -> bool:
+    def _pays(self, tangent: _Tangent, rounds: Rounds) -> bool:
         """Whether a new tangent is worth its factorisation."""
         if rounds.gained():
             return False
@@ -347,7 +250,7 @@ class PlasticSolver:
         return share is None or not rounds.gains(share)
 
     def _softened(
-        self, at: PlasticResponse, increment: Increment, rounds: _Rounds, left: tuple[float, ...] = _LEFT_PARTS
+        self, at: PlasticResponse, increment: Increment, rounds: Rounds, left: tuple[float, ...] = _LEFT_PARTS
     ) -> _Tangent:
         """Bodies linearised about a response, as soft as they are or as contact bears it."""
         for part in left:
@@ -359,7 +262,7 @@ class PlasticSolver:
                 continue
         return _Tangent(solver=self.elastic, K=increment.system.K)
 
-    def _made(self, at: PlasticResponse, left: float, increment: Increment, rounds: _Rounds) -> _Tangent:
+    def _made(self, at: PlasticResponse, left: float, increment: Increment, rounds: Rounds) -> _Tangent:
         """Bodies linearised about a response, factorised."""
         rounds.factorisations += 1
         with increment.clock.phase("assembly"):
@@ -374,7 +277,7 @@ class PlasticSolver:
         increment: Increment,
         tangent: _Tangent,
         x: Array,
-        rounds: _Rounds,
+        rounds: Rounds,
         model: PlasticResponse,
         reached: tuple[IncrementAnswer, PlasticResponse] | None,
     ) -> tuple[IncrementAnswer, _Tangent, Array]:
