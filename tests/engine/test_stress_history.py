@@ -2,6 +2,7 @@
 """Stresses over a history: the same whether displacements were kept or are found from the forces of the contacts."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -134,6 +135,20 @@ def test_bodies_that_yield_need_their_displacements():
     np.testing.assert_allclose(history.stress[0, -1, 0], 5.0)
     np.testing.assert_allclose(history.strain[0, -1, 0], 0.05 + 0.02, rtol=1e-6)
     np.testing.assert_allclose(history.strain[0, -1, 1], -0.3 * 0.05 - 0.5 * 0.02, rtol=1e-6)
+
+
+@pytest.mark.slow
+def test_sides_that_slide_far_need_their_displacements():
+    model = sg.read(Path(__file__).parents[2] / "examples" / "block_over_edge.toml")
+    with pytest.raises(sg.InputError, match="depend on pairs that follow the bodies"):
+        sg.solve(model).stress_history()
+    solution = sg.solve(replace(model, steps=[replace(step, at="events") for step in model.steps]))
+    history = solution.stress_history()
+    body = history.bodies[0]
+    last = solution.stress(body)
+    own = [name == body for name in history.bodies]
+    np.testing.assert_array_equal(history.stress[own, -1], last.stress[np.searchsorted(last.nodes, history.node[own])])
+    assert not history.exact
 
 
 def test_what_begins_in_another_history_is_refused(fretting):

@@ -80,6 +80,16 @@ def test_what_a_model_asks_for_is_in_its_archive(tmp_path):
     )
 
 
+def test_what_is_not_known_afterwards_is_a_note(monkeypatch):
+    """A solution is never lost for a criterion that cannot be answered."""
+    monkeypatch.setattr("signorini.engine.recovery._AGREEMENT_TOL", -1.0)
+    asked = sg.Fatigue(sg.fatigue.SWT(), where="bottom")
+    solution = sg.solve(beam(fatigue=asked, steps=[sg.Step(name="bend", increments=2)]))
+    assert solution.solved
+    assert solution.fatigue_results == ()
+    assert any(note.startswith("fatigue[0].steps: displacements on the way of 'bend'") for note in solution.last.notes)
+
+
 def test_ruiz_of_partial_slip():
     """F1 and F2 from the results of the contact itself, and 0 where it sticks."""
     steps = [

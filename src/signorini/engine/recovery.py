@@ -81,7 +81,6 @@ class Recovery:
         InputError
             If what is found there is not what was kept.
         """
-        where = ("step", step.name, "at")
         asked = [*moments, step.instants[-1]]
         cuts = [*range(0, len(asked), _AT_ONCE), len(asked)]
         for low, high in pairwise(cuts):
@@ -89,11 +88,8 @@ class Recovery:
             for u in columns.T[: len(moments) - low]:
                 yield self.examined.space.at_nodes(u)
             if high == len(asked) and not self._agrees(columns[:, -1], step, asked[-1]):
-                raise InputError(
-                    'the displacements on the way do not follow from loads and contacts alone; expected at = "events", '
-                    "which keeps them",
-                    where=where,
-                )
+                words = f"displacements on the way of '{step.name}' do not follow from loads and contacts alone"
+                raise InputError(f'{words}; expected at = "events" in it, which keeps them', where=("steps",))
 
     def _solved(self, moments: Sequence[Instant]) -> Array:
         """(dofs, k) Displacements of all dofs at k moments."""

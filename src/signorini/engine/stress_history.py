@@ -15,6 +15,7 @@ from signorini.errors import InputError, one_of
 from signorini.fem.kinematics import Group
 from signorini.fem.probe import StressProbe
 from signorini.fem.stress import DeformedBodies, at_best_points
+from signorini.model.model import Model
 from signorini.plasticity.fields import by_family
 from signorini.solution.history import History
 from signorini.solution.results import Instant, StepResult
@@ -110,7 +111,7 @@ def stress_history(history: History, probe: StressProbe, points: Array, *, steps
         stress=frozen(stress),
         strain=frozen(probe.elastic_strain(stress) + flowed),
         gradient=frozen(gradient),
-        exact=all(span.step.path == "exact" for span in looked_at) or _is_linear(history),
+        exact=_is_exact(history.model, looked_at),
     )
 
 
@@ -133,9 +134,14 @@ def _along(
     yield span.step.load_factor, _in_state(probe, span.step, span.step.displacement)
 
 
-def _is_linear(history: History) -> bool:
-    """Whether stresses are linear in the loads: without contact, elastic."""
-    return not history.model.contacts and not history.model.yields
+def _is_exact(model: Model, looked_at: Sequence[Span]) -> bool:
+    """Whether stresses are linear between moments: without contact in elastic bodies, and on exact paths.
+
+    Not where pairs follow the bodies, whose steps are paths from stride to stride.
+    """
+    if not model.contacts:
+        return not model.yields
+    return not model.slides and all(span.step.path == "exact" for span in looked_at)
 
 
 def _in_state(probe: StressProbe, state: StepResult | Instant, displacement: Array) -> tuple[Array, Array, Array]:
