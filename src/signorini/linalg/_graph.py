@@ -89,6 +89,39 @@ def quotient(graph: Graph, start: Int32Array, member: Int32Array, group: Int32Ar
 
 
 @njit(cache=True)
+def both_ways(graph: Graph) -> Graph:
+    """Complete a graph of which some edges lead one way only; the same graph where none does."""
+    indptr, indices = graph
+    count = len(indptr) - 1
+    back = np.zeros(count + 1, np.int32)
+    for p in range(len(indices)):
+        back[indices[p] + 1] += 1
+    for v in range(count):
+        back[v + 1] += back[v]
+    top = back[:-1].copy()
+    source = np.empty(len(indices), np.int32)
+    for v in range(count):
+        for p in range(indptr[v], indptr[v + 1]):
+            source[top[indices[p]]] = v
+            top[indices[p]] += 1
+    mark = np.full(count, -1, np.int32)
+    rows = np.zeros(count + 1, np.int32)
+    columns = np.empty(2 * len(indices), np.int32)
+    here = 0
+    for v in range(count):
+        for p in range(indptr[v], indptr[v + 1]):
+            mark[indices[p]] = v
+            columns[here] = indices[p]
+            here += 1
+        for p in range(back[v], back[v + 1]):
+            if mark[source[p]] != v:
+                columns[here] = source[p]
+                here += 1
+        rows[v + 1] = here
+    return graph if here == len(indices) else Graph(rows, columns[:here].copy())
+
+
+@njit(cache=True)
 def subgraph(graph: Graph, count: int) -> Graph:
     """Keep the first `count` vertices and the edges between them."""
     indptr, indices = graph

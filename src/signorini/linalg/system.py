@@ -12,7 +12,7 @@ from scipy import sparse
 
 from signorini.arrays import Array, BoolArray, Int32Array, IntArray
 from signorini.errors import InputError
-from signorini.linalg._graph import Graph, Rows, quotient
+from signorini.linalg._graph import Graph, Rows, both_ways, quotient
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,7 +150,10 @@ def like(values: ArrayLike, result: Array) -> Array:
 
 
 def node_graph(system: System) -> NodeGraph:
-    """Gather the unknowns of a node, interior nodes first."""
+    """Gather the unknowns of a node, interior nodes first.
+
+    SciPy's products and sums leave out entries that come to 0: of a pair that rounding alone keeps from it perhaps one.
+    """
     key = system.nodes - system.nodes.min(initial=0)
     key = key + (key.max(initial=0) + 1) * ~system.inside
     member = np.argsort(key, kind="stable").astype(np.int32)
@@ -158,7 +161,7 @@ def node_graph(system: System) -> NodeGraph:
     start = np.append(np.flatnonzero(first), system.n).astype(np.int32)
     group = np.empty(system.n, dtype=np.int32)
     group[member] = np.cumsum(first) - 1
-    edges = quotient(system.rows.graph, start, member, group)
+    edges = both_ways(quotient(system.rows.graph, start, member, group))
     interior = int(np.searchsorted(start, system.n - system.m))
     points = None if system.points is None else system.points[system.nodes[member[start[:-1]]]]
     return NodeGraph(start=start, member=member, interior=interior, edges=edges, points=points)
