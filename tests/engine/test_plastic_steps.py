@@ -12,8 +12,8 @@ from signorini.engine import first_yield, plastic_rounds, plastic_solver, plasti
 from signorini.engine.chord import Chord
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.gallery.cylinder import zhu_cylinder
+from signorini.gallery.footings import footing
 from signorini.gallery.press_fit import press_fit
-from signorini.gallery.yielding import footing
 from signorini.outcome import Outcome
 
 LIMIT = 2.0 * np.log(2.0)  # of the pressure in a tube of twice the radius outside, over the shear strength
@@ -207,6 +207,6 @@ def test_the_bound_named_does_not_depend_on_how_far_beyond_the_load_is():
     bounds = []
     for pressure in (6.0, 20.0):
         with pytest.raises(sg.SolveFailed, match=r"flow plastically at [\d.]+% of the step at most") as found:
-            sg.solve(footing(pressure, n=4))
+            sg.solve(footing(pressure, edge=0.25))
         bounds.append(pressure * float(str(found.value).split("plastically at ")[1].split("%")[0]) / 100.0)
     assert bounds[0] == pytest.approx(bounds[1], rel=1e-3)

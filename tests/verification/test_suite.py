@@ -3,7 +3,7 @@
 
 import pytest
 
-from signorini.verify import fenet, hertz, indentation, patches, plasticity, punches, rings, scalar, solids
+from signorini.verify import fenet, footings, hertz, indentation, patches, plasticity, punches, rings, scalar, solids
 from signorini.verify.check import Check
 
 CASES = (
@@ -25,7 +25,7 @@ CASES = (
     scalar.scalar_signorini,
     solids.hollow,
     plasticity.hills_tube,
-    plasticity.flat_punch,
+    footings.flat_punch,
     plasticity.yielding_press_fits,
     plasticity.bending,
     indentation.first_yield,

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies that yield: tubes, flat punches, round bodies on a rigid plane, beams, what a cylinder rolls over."""
+"""Bodies that yield: tubes, round bodies on a rigid plane, beams, what a cylinder rolls over."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,8 +11,6 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.gallery.large_bodies import bend, graded_lines, with_seat
 from signorini.meshing.plane import Cells, annulus, rectangle
-from signorini.meshing.solid import extruded
-from signorini.meshing.tetrahedra import tetrahedra
 from signorini.model.body import Body, Formulation
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -26,7 +24,7 @@ from signorini.model.step import Step
 from signorini.reference.hertz import contact_modulus
 
 SHEAR_STRENGTH = 1.0
-"""k of tube and footing, force per area; they are perfectly plastic."""
+"""k of what is perfectly plastic, force per area."""
 
 PERFECT = Plastic(float(np.sqrt(3.0)) * SHEAR_STRENGTH)
 
@@ -71,81 +69,6 @@ def tube(
         supports=supports,
         loads=[Load(inside, pressure=pressure, name="pressure")],
         steps=steps,
-    )
-
-
-def footing(
-    pressure: float = 0.0,
-    *,
-    n: int,
-    cells: Cells = "quad",
-    formulation: Formulation | None = None,
-    depth: float = 0.0,
-    rough: bool = False,
-) -> Model:
-    """Half of a block 12 x 5 with a flat punch of half-width 1 on it, pressed by a mean pressure or driven.
-
-    Parameters
-    ----------
-    pressure : mean, force per area; at factor 1 of "punch"
-    n : cells along half the punch
-    cells : "quad", "quad8", "triangle6", ...
-    formulation : of the cells
-    depth : to which the punch is driven instead, length
-    rough : whether it holds the surface sideways
-    """
-    x = np.concatenate([np.linspace(0.0, 1.5, 3 * n // 2 + 1), 1.5 + graded_lines(1.0 / n, 1.0 / n, 4.5, 1.12)[1:]])
-    y = np.concatenate([np.linspace(0.0, 1.0, n + 1), 1.0 + graded_lines(1.0 / n, 1.0 / n, 4.0, 1.12)[1:]])
-    mesh = with_seat(rectangle(x=x, y=-y[::-1], cells=cells), "top", 1.0)
-    aside = 0.0 if rough else None
-    supports = [Support("left", u=(0.0, None)), Support("right", u=(0.0, None)), Support("bottom", u=(0.0, 0.0))]
-    loads = []
-    if depth:
-        supports.append(Support("seat", u=(aside, -depth), name="punch"))
-    else:
-        loads.append(Load("seat", force=(None, -pressure), spread="displacement", name="punch"))
-        supports += [Support("seat", u=(0.0, None), name="rough")] if rough else []
-    (name,) = mesh.bodies
-    return Model(
-        mesh,
-        title="Flat punch on a body that yields",
-        bodies=[Body(name, Elastic(E=1000.0 * SHEAR_STRENGTH, nu=0.3, plastic=PERFECT), formulation)],
-        supports=supports,
-        loads=loads,
-        steps=[Step(name="press", increments=1)],
-    )
-
-
-_RAISED: Mapping[str, Cells] = {
-    "hexahedron": "quad",
-    "hexahedron20": "quad8",
-    "hexahedron27": "quad9",
-    "tetra10": "quad9",
-    "wedge15": "triangle6",
-}
-"""Families of a slab, and of the plane mesh that it is made of."""
-
-
-def footing_slab(pressure: float, *, n: int, family: str) -> Model:
-    """The smooth footing as a layer of solids, one cell thick, that cannot move across.
-
-    Parameters
-    ----------
-    pressure, n : see `footing`
-    family : "hexahedron", "hexahedron20", "hexahedron27", "tetra10" or "wedge15"
-    """
-    flat = footing(pressure, n=n, cells=_RAISED[family])
-    (body,), (load,) = flat.bodies, flat.loads
-    layers = np.linspace(0.0, 1.0 / n, 2 if family == "hexahedron" else 3)
-    mesh = extruded(flat.mesh, z=layers, ends=("back", "front"))
-    across = [Support(side, u=(None, None, 0.0)) for side in ("back", "front")]
-    return Model(
-        tetrahedra(mesh) if family == "tetra10" else mesh,
-        title="Flat punch on a layer that yields",
-        bodies=[replace(body, formulation="standard" if family == "wedge15" else None)],
-        supports=[*across, *(replace(support, u=(*support.u, None)) for support in flat.supports)],
-        loads=[replace(load, force=(None, -pressure / n, None))],
-        steps=flat.steps,
     )
 
 

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""B12: bodies that yield. Hill's tube, the flat punch, press fits and bending beyond yield."""
+"""B12: bodies that yield. Hill's tube, press fits and bending beyond yield, squares of NAFEMS."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
@@ -17,8 +16,6 @@ from signorini.gallery.yielding import (
     PERFECT,
     SHEAR_STRENGTH,
     bent_beam,
-    footing,
-    footing_slab,
     overlaid_squares,
     stretched,
     tube,
@@ -26,12 +23,12 @@ from signorini.gallery.yielding import (
 from signorini.meshing.plane import Cells
 from signorini.model.body import Body, Formulation
 from signorini.model.material import Elastic
-from signorini.model.model import Kind, Model
+from signorini.model.model import Kind
 from signorini.model.step import Step
-from signorini.outcome import Outcome
-from signorini.reference.plasticity import HillTube, YieldingBeam, punch_limit, yielding_press_fit_pressure
+from signorini.reference.plasticity import HillTube, YieldingBeam, yielding_press_fit_pressure
 from signorini.solution.history import History
 from signorini.verify.check import Check, checks_of
+from signorini.verify.limit_loads import NEXT_LOAD, limit_load, said
 from signorini.verify.yielding_points import yielding_points
 
 _HILL = HillTube(inner=1.0, outer=2.0, shear_strength=SHEAR_STRENGTH)
@@ -49,32 +46,12 @@ _TUBES: tuple[tuple[Cells, int, Kind, tuple[float, float, float]], ...] = (
 )
 """Cells, how many through the wall; what stresses over k (root of the mean square), expansion and limit may be off."""
 
-_Meshes = tuple[tuple[Cells, Formulation | None, int, float], ...]
-_COARSE_PUNCHES: _Meshes = (
-    ("quad", None, 8, 0.06),
-    ("quad", "incompatible", 8, 0.05),
-    ("quad8", None, 4, 0.06),
-    ("quad9", None, 4, 0.03),
-    ("triangle6", None, 4, 0.02),
+_BEAMS: tuple[tuple[Cells, Formulation | None, int, float], ...] = (
+    ("quad", None, 32, 2e-3),
+    ("quad", "incompatible", 8, 5e-3),
+    ("quad8", None, 8, 1e-3),
 )
-_FINE_PUNCHES: _Meshes = (
-    ("quad", None, 32, 0.02),
-    ("quad", "incompatible", 32, 0.02),
-    ("quad8", None, 16, 0.02),
-    ("quad9", None, 8, 0.02),
-    ("triangle6", None, 8, 0.01),
-)
-"""Cells, formulation, how many under half the punch, whose edge is singular: errors are of first order in size."""
-
-_SLABS = (
-    ("hexahedron", 8, 0.05),
-    ("hexahedron20", 4, 0.05),
-    ("hexahedron27", 4, 0.03),
-    ("tetra10", 4, 0.03),
-    ("wedge15", 4, 0.07),
-)
-"""Families, how many cells under half the punch, tolerance."""
-_BEYOND_SLABS = 1.07  # of the exact limit: what none of them carries
+"""Cells, formulation, how many through the height, tolerance."""
 
 _NL1_STRAINS = ((0.25, 0.0), (0.5, 0.0), (0.5, 0.25), (0.5, 0.5), (0.25, 0.5), (0.0, 0.5), (0.0, 0.25), (0.0, 0.0))
 """Of NAFEMS NL1 along x and y, in 1e-4."""
@@ -91,9 +68,6 @@ _OVERLAID = {
     16.93: ((3.209297, 6.149462, 7.571241), (0.4753345, 0.3048490, -0.7863557)),
 }
 """Force on three squares in one place, and the stresses along and across it that are printed for them, MPa."""
-
-_NEXT_LOAD = 0.998  # of the limit that is named: the next load
-_ATTEMPTS = 8  # loads, from twice the limit on: 2 to 5 are the rule
 
 _FITS: tuple[tuple[Cells, int, tuple[int, int]], ...] = (
     ("quad", 12, (32, 32)),
@@ -113,7 +87,7 @@ def hills_tube() -> Iterator[Check]:
         points = yielding_points(loaded)
         share = float(points.weights[points.equivalent > 0.0].sum() / points.weights.sum())
         expansion = float(np.linalg.norm(loaded.last.displacement, axis=1).max())
-        above, below = _limit(partial(tube, n=n, cells=cells, kind=kind), 2.0 * _HILL.limit)
+        above, below = limit_load(partial(tube, n=n, cells=cells, kind=kind), 2.0 * _HILL.limit)
         pressure = _first_yield(again, 2) * 1.1 * _PRESSURE
         yield from checks_of(
             f"B12 Hill's tube, b/a 2, p 1.2 k, {kind}, {cells}, {n} cells",
@@ -123,50 +97,9 @@ def hills_tube() -> Iterator[Check]:
             ("expansion of the bore", expansion, _HILL.expansion(_PRESSURE, (1000.0, 0.4999)), bore),
             ("autofrettage: pressure at which it flows again", pressure, _PRESSURE, 1e-6),
             ("pressure beyond which flow is proved", above, _HILL.limit, limit),
-            ("pressure that is carried", below, _HILL.limit, limit + 1.0 - _NEXT_LOAD),
+            ("pressure that is carried", below, _HILL.limit, limit + 1.0 - NEXT_LOAD),
             source="Hill (1950), chapter V.2",
         )
-
-
-def flat_punch() -> Iterator[Check]:
-    """On coarse meshes."""
-    yield from _punches(_COARSE_PUNCHES, (False,))
-
-
-def flat_punch_refined() -> Iterator[Check]:
-    """On fine ones, smooth and rough: within 2 % with every family of cells."""
-    yield from _punches(_FINE_PUNCHES, (False, True))
-
-
-def flat_punch_in_space() -> Iterator[Check]:
-    """On a layer of solids, coarse."""
-    exact = punch_limit(SHEAR_STRENGTH)
-    for family, n, tolerance in _SLABS:
-        above, below = _limit(partial(footing_slab, n=n, family=family), _BEYOND_SLABS * exact)
-        yield from checks_of(
-            f"B12 flat punch, smooth, a layer of {family}, {n} cells under half of it",
-            ("mean pressure beyond which flow is proved", above, exact, tolerance),
-            ("mean pressure that is carried", below, exact, tolerance),
-            source="Prandtl (1920): (2 + pi) k",
-        )
-
-
-def _punches(meshes: _Meshes, rough: tuple[bool, ...]) -> Iterator[Check]:
-    """The limit load of the mesh from above, a load below it that is carried, and the punch driven far."""
-    exact = punch_limit(SHEAR_STRENGTH)
-    for cells, formulation, n, tolerance in meshes:
-        for holds in rough:
-            punched = partial(footing, n=n, cells=cells, formulation=formulation, rough=holds)
-            above, below = _limit(punched, 2.0 * exact)
-            driven = -solve(punched(depth=0.08)).last.reactions["punch"][1]
-            yield from checks_of(
-                f"B12 flat punch, {'rough' if holds else 'smooth'}, {_named(cells, formulation)}, {n} cells under half "
-                "of it",
-                ("mean pressure beyond which flow is proved", above, exact, tolerance),
-                ("mean pressure that is carried", below, exact, tolerance),
-                ("mean pressure at depth 0.08", driven, exact, tolerance),
-                source="Prandtl (1920): (2 + pi) k",
-            )
 
 
 def yielding_press_fits() -> Iterator[Check]:
@@ -194,8 +127,7 @@ def bending() -> Iterator[Check]:
     """Moments of a wide beam at curvatures up to five times that of first yield."""
     Y = float(np.sqrt(3.0)) * SHEAR_STRENGTH
     beam = YieldingBeam(height=2.0, E=1000.0 * SHEAR_STRENGTH, nu=0.4999, yield_stress=Y, plane_strain=True)
-    meshes: _Meshes = (("quad", None, 32, 2e-3), ("quad", "incompatible", 8, 5e-3), ("quad8", None, 8, 1e-3))
-    for cells, formulation, n, tolerance in meshes:
+    for cells, formulation, n, tolerance in _BEAMS:
         rows = []
         for part in (0.9, 2.0, 5.0):
             curvature = part * beam.yield_curvature
@@ -259,34 +191,6 @@ def _lack(history: History, stress: Callable[[Array, float], tuple[Array, Array]
     return float(np.sqrt(points.weights @ square / points.weights.sum())) / SHEAR_STRENGTH
 
 
-def _limit(model_at: Callable[[float], Model], beyond: float) -> tuple[float, float]:
-    """The limit load of a mesh: a load beyond which flow is proved, and one a little less that is carried.
-
-    A bound that is named from a load far beyond it is not the smallest; one named from itself is.
-
-    Parameters
-    ----------
-    model_at : the model under a load
-    beyond : a load that cannot be carried
-    """
-    load, above = beyond, float("nan")
-    for _ in range(_ATTEMPTS):
-        history = solve(model_at(load), raise_on_failure=False)
-        if history.solved:
-            return above, load
-        if history.status != Outcome.NO_EQUILIBRIUM:
-            break
-        above = _said(r"flow plastically at ([\d.]+)%", history.message) * load
-        load = _NEXT_LOAD * above
-    return above, float("nan")
-
-
 def _first_yield(history: History, step: int) -> float:
     """The part of a step at which it says that points yield."""
-    return _said(r" at ([\d.]+)%: first yield", " ".join(history.steps[step].notes))
-
-
-def _said(pattern: str, words: str) -> float:
-    """A percentage as a part; NaN, which passes nothing, where it is not said."""
-    found = re.search(pattern, words)
-    return float(found[1]) / 100.0 if found else float("nan")
+    return said(r" at ([\d.]+)%: first yield", " ".join(history.steps[step].notes))
