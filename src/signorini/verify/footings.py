@@ -40,12 +40,12 @@ class Punched:
     rough: bool = False
 
     def __str__(self) -> str:
-        """In words."""
+        """The mesh in words."""
         named = f"{self.cells}, {self.formulation}" if self.formulation else self.cells
         return f"{'rough' if self.rough else 'smooth'}, {named}, {self.edge:g} of half of it at its edge"
 
     def model(self, pressure: float = 0.0, *, depth: float = 0.0) -> Model:
-        """Under a mean pressure, or with the punch driven to a depth."""
+        """The body under a mean pressure, or with the punch driven to a depth."""
         return footing(
             pressure, edge=self.edge, cells=self.cells, formulation=self.formulation, depth=depth, rough=self.rough
         )
@@ -82,17 +82,17 @@ IN_SPACE = (
 
 
 def flat_punch() -> Iterator[Check]:
-    """Smooth, in the plane."""
+    """A smooth punch, in the plane."""
     yield from _punches(IN_THE_PLANE)
 
 
 def rough_flat_punch() -> Iterator[Check]:
-    """That holds the surface sideways: what flows reaches twice as deep."""
+    """A punch that holds the surface sideways: what flows reaches twice as deep."""
     yield from _punches(ROUGH)
 
 
 def flat_punch_in_space() -> Iterator[Check]:
-    """On a layer of solids."""
+    """A smooth punch on a layer of solids."""
     yield from _punches(IN_SPACE)
 
 
