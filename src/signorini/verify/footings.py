@@ -63,14 +63,14 @@ IN_THE_PLANE = (
     Punched("triangle6", 0.15),
 )
 """Meshes under a smooth punch in plane strain."""
-ROUGH = (
+ROUGH_IN_THE_PLANE = (
     Punched("quad", 0.01, rough=True),
     Punched("quad", 0.03, "incompatible", rough=True),
     Punched("quad8", 0.04, rough=True),
     Punched("quad9", 0.08, rough=True),
     Punched("triangle6", 0.15, rough=True),
 )
-"""Meshes under a rough one."""
+"""Meshes under a rough punch, about whose edge strains are as large twice as far."""
 IN_SPACE = (
     Punched("hexahedron", 0.02),
     Punched("hexahedron", 0.04, "incompatible"),
@@ -90,7 +90,7 @@ def flat_punch() -> Iterator[Check]:
 
 def rough_flat_punch() -> Iterator[Check]:
     """A punch that holds the surface sideways: what flows reaches twice as deep."""
-    yield from _punches(ROUGH)
+    yield from _punches(ROUGH_IN_THE_PLANE)
 
 
 def flat_punch_in_space() -> Iterator[Check]:
