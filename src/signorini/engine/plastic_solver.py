@@ -47,6 +47,7 @@ _MAX_ROUNDS = 200  # of one increment: Newton takes 4 to 16, kept factors some 4
 _LEFT_PARTS = (0.0, 1e-6, 1e-4, 1e-2)  # of the elastic law, left in place where a tangent is singular without it
 _STIFFER_PARTS = (1e-4, 0.1)  # of the elastic law, left in place where contact finds no answer on a softer tangent
 _SEARCH_FROM = 0.5  # of the residual before: a step that leaves more is looked at
+_KEPT_TANGENTS = 3  # that are kept for more rounds: near the limit load they lead astray, and Newton's method does not
 _SUBSTITUTION = 40.0  # operations that take as long as to move an entry of the factor through memory in one round
 _FLOWING = 30.0  # of the first, elastic step: longer ones, again and again, are bodies that flow away
 _FARTHER = 30.0  # times that, where the mechanism is sought more closely: what volume changes falls by as much
@@ -246,6 +247,8 @@ class PlasticSolver:
         """Whether a new tangent is worth its factorisation."""
         if rounds.gained():
             return False
+        if rounds.factorisations >= _KEPT_TANGENTS:
+            return True
         share = self.tangents.substitution_share(tangent.solver, _SUBSTITUTION)
         return share is None or not rounds.gains(share)
 
