@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.reference.plasticity import CyclicBar
+from tests.helpers.cyclic_bar import CyclicBar
 from tests.helpers.yielding import LAWS, pulled, sheared
 
 E, NU = 200.0, 0.3

@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 import signorini as sg
 from signorini.cli import main
 from signorini.deck import DeckError, load_deck
-from signorini.reference.plasticity import CyclicBar
 from tests.helpers.calculix import ccx_displacements, ccx_stresses, needs_ccx
+from tests.helpers.cyclic_bar import CyclicBar
 
 E, NU = 200.0, 0.3
 BRICK = (
