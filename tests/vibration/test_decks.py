@@ -107,6 +107,10 @@ def test_modes_of_bodies_as_they_are_drawn_need_no_supports(tmp_path: Path, caps
     assert re.search(r"     3 +0\n     4 +[1-9]", said)
     assert main(["run", str(path), "-o", str(tmp_path / "other")]) == 2
     assert "asks for natural modes of bodies as they are drawn: use 'signorini modes'" in capsys.readouterr().err
+    assert main(["check", str(path)]) == 2
+    assert "bodies as they are drawn: 'signorini modes' checks them too" in capsys.readouterr().err
+    assert main(["check", str(toml(tmp_path))]) == 0
+    assert "3 natural modes about the end of the steps are asked for" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -239,3 +239,49 @@ def test_what_has_no_modes_is_named(ask, words):
     with pytest.raises(sg.InputError) as error:
         ask()
     assert str(error.value) == words
+
+
+def test_cyclic_symmetry_and_sides_that_slide_far_are_refused():
+    disc = sg.annulus(inner=1.0, outer=2.0, n_radial=2, n_angular=4, angle=60.0, centre=(0.0, 0.0))
+    (name,) = disc.bodies
+    sector = sg.Model(
+        disc, bodies=[sg.Body(name, STEEL)], cyclic_symmetries=[sg.CyclicSymmetry("start", "end", sectors=6)]
+    )
+    with pytest.raises(
+        sg.InputError, match=r"cyclic_symmetry\[0\]: gives modes alone that are the same in every sector"
+    ):
+        sg.natural_modes(sector, 2)
+    small = blocks(n=2)
+    far = replace(small, contacts=[replace(small.contacts[0], sliding="finite")])
+    with pytest.raises(sg.InputError, match=r'contact\[0\].sliding: is "finite"; modes know pairs that stay'):
+        sg.natural_modes(far, 2)
+
+
+def test_ties_compliances_and_stuck_pairs_agree_in_space():
+    """A stuck joint of two bricks in space is one brick; a little compliance lowers its modes a little."""
+
+    def bricks(**law):
+        parts = {name: sg.box(x=[0.0, 0.5, 1.0], y=[0.0, 0.5, 1.0], z=z) for name, z in PARTS.items()}
+        return sg.Model(
+            sg.join(parts),
+            bodies=[sg.Body(name, STEEL) for name in parts],
+            supports=[sg.Support("lower.bottom", u=(0.0, 0.0, 0.0))],
+            contacts=[sg.Contact("upper.bottom", "lower.top", **law)],
+        )
+
+    one = sg.box(x=[0.0, 0.5, 1.0], y=[0.0, 0.5, 1.0], z=[0.0, 0.5, 1.0])
+    (name,) = one.bodies
+    whole = sg.Model(one, bodies=[sg.Body(name, STEEL)], supports=[sg.Support("bottom", u=(0.0, 0.0, 0.0))])
+    exact = sg.natural_modes(whole, 4).squares
+    assert sg.natural_modes(bricks(friction=0.3), 4).squares == pytest.approx(exact, rel=1e-9)
+    assert sg.natural_modes(bricks(friction="tied"), 4, joint="open").squares == pytest.approx(exact, rel=1e-9)
+    soft, softer = (
+        sg.natural_modes(bricks(friction=0.3, normal_compliance=c, tangential_compliance=c), 4).squares
+        for c in (1e-5, 2e-5)
+    )
+    assert (softer < soft).all()
+    assert (soft < exact).all()
+    assert exact - softer == pytest.approx(2.0 * (exact - soft), rel=1e-2)  # first order in the compliance
+
+
+PARTS = {"lower": [0.0, 0.5], "upper": [0.5, 1.0]}

@@ -227,7 +227,10 @@ def _notes(deck: Deck) -> list[str]:
     notes += [f"material '{name}' is not used" for name in deck.unused_materials]
     if not model.contacts:
         notes.append("there is no contact: this is a linear problem")
-    if not model.scaled_names and all(contact.interference == 0.0 for contact in model.contacts):
+    if deck.modes is not None:
+        about = "about the end of the steps" if deck.modes.preload else "of the bodies as they are drawn"
+        notes.append(f"{deck.modes.number} natural modes {about} are asked for, which 'signorini modes' computes")
+    elif not model.scaled_names and all(contact.interference == 0.0 for contact in model.contacts):
         notes.append("nothing is loaded or moved")
     return notes
 

@@ -12,6 +12,8 @@ from signorini.cli.progress import progress
 from signorini.deck import Deck, load_deck
 from signorini.errors import InputError
 
+_DRAWN = "asks for natural modes of bodies as they are drawn"  # which may be free
+
 
 def run(options: argparse.Namespace) -> int:
     """Read, solve, write, print; 0 if solved and certified, 3 if not."""
@@ -19,7 +21,7 @@ def run(options: argparse.Namespace) -> int:
     with progress(quiet=options.quiet) as clock, clock.phase("read"):
         deck = _load(options)
     if deck.modes is not None and not deck.modes.preload:
-        raise InputError(f"'{deck.path}' asks for natural modes of bodies as they are drawn: use 'signorini modes'")
+        raise InputError(f"'{deck.path}' {_DRAWN}: use 'signorini modes'")
     from signorini.cli.run_deck import run_deck
 
     return run_deck(deck, options, clock, started)
@@ -45,6 +47,8 @@ def check(options: argparse.Namespace) -> int:
     try:
         examined = examine(deck.model)
     except InputError as error:
+        if deck.modes is not None and not deck.modes.preload:
+            raise InputError(f"'{deck.path}' {_DRAWN}: 'signorini modes' checks them too") from error
         raise deck.locate(error) from error
     words = ""
     if options.wellposed:

@@ -8,6 +8,7 @@ pairs, ``S + B_s^T C^-1 B_s``, and what holds rigidly, ``B_r u = 0``, takes mult
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.linalg
@@ -41,6 +42,12 @@ class ShiftedBodies:
     shift: float
     dofs: IntArray
     factor: Factorisation
+
+    @cached_property
+    def triangle(self) -> Array:
+        """(m, m) Cholesky's factor of the condensed matrix, without springs of compliant pairs."""
+        S = self.factor.schur()
+        return np.asarray(np.linalg.cholesky(S) if len(S) else S, dtype=np.float64)
 
 
 def shifted(bodies: VibratingBodies) -> ShiftedBodies:
@@ -91,12 +98,13 @@ class JointInverse:
         scaled = sp.diags_array(1.0 / compliance[compliance > 0.0]) @ springs
         ties = make_ties(bodies.B, rows[compliance == 0.0])
         stiff = sp.csr_array(springs.T @ scaled)
-        S = shifted.factor.schur() + stiff[dofs][:, dofs].toarray()
-        chol = np.linalg.cholesky(S) if len(dofs) else S
+        chol = shifted.triangle
+        if stiff.nnz:
+            chol = np.linalg.cholesky(shifted.factor.schur() + stiff[dofs][:, dofs].toarray())
         held = ties.B[:, dofs].toarray().T
-        held = scipy.linalg.solve_triangular(chol, held, lower=True) if held.size else held
+        held = _forward(chol, held) if held.size else held
         gram = np.linalg.cholesky(held.T @ held) if held.size else np.zeros((0, 0))
-        K = sp.csr_array(bodies.K + stiff) if len(compliance) > len(ties.rows) else bodies.K
+        K = sp.csr_array(bodies.K + stiff) if stiff.nnz else bodies.K
         return JointInverse(shifted=shifted, K=K, ties=ties, _chol=chol, _held=held, _gram=gram)
 
     def __call__(self, f: Array) -> Array:
@@ -104,7 +112,13 @@ class JointInverse:
         reduced = self.shifted.factor.reduce(f)
         if not len(self.shifted.dofs):
             return reduced.expand(reduced.load)
-        y = scipy.linalg.solve_triangular(self._chol, reduced.load, lower=True)
+        y = _forward(self._chol, reduced.load)
         if self._held.size:
-            y = y - self._held @ scipy.linalg.cho_solve((self._gram, True), self._held.T @ y)
-        return reduced.expand(scipy.linalg.solve_triangular(self._chol, y, lower=True, trans=1))
+            y = y - self._held @ scipy.linalg.cho_solve((self._gram, True), self._held.T @ y, check_finite=False)
+        return reduced.expand(scipy.linalg.solve_triangular(self._chol, y, lower=True, trans=1, check_finite=False))
+
+
+def _forward(triangle: Array, values: Array) -> Array:
+    """``L^-1 values``, (m,) or (m, k)."""
+    solved: Array = scipy.linalg.solve_triangular(triangle, values, lower=True, check_finite=False)
+    return solved
