@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
     from signorini.law.closure import Closure
+    from signorini.law.friction import TabularFriction
     from signorini.meshing.cut import cut
     from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
     from signorini.meshing.profile import mesh_profile, read_profile
@@ -85,6 +86,7 @@ __all__ = [
     "Step",
     "Support",
     "Surface",
+    "TabularFriction",
     "Torus",
     "Wear",
     "__version__",
@@ -118,6 +120,7 @@ _HOMES = {
     "signorini.deck": ("read",),
     "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
     "signorini.law.closure": ("Closure",),
+    "signorini.law.friction": ("TabularFriction",),
     "signorini.meshing.cut": ("cut",),
     "signorini.meshing.plane": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.meshing.profile": ("mesh_profile", "read_profile"),

@@ -249,7 +249,7 @@ def line_of(path, words):
         ('{ law = "quadratic", friction = 0.4, limit = -3 }', "friction.limit: is -3; expected a number > 0"),
         ('{ law = "quadratic", friction = 0.4 }', "friction: has no 'limit'; expected it"),
         ('{ law = "quadratic", mu = 1, limit = 3 }', "friction.mu: unknown key. Known: friction, limit"),
-        ('{ law = "cubic" }', "friction.law: unknown law of friction 'cubic'. Known: quadratic"),
+        ('{ law = "cubic" }', "friction.law: unknown law of friction 'cubic'. Known: quadratic, tabular"),
         (f"{LAW}\nadhesion = 1.0", "adhesion: is given, but friction has a law of its own, quadratic"),
     ],
 )

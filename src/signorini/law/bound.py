@@ -17,6 +17,7 @@ plane that follow pieces (covering paths, the tree of states, exact histories) t
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
@@ -33,7 +34,10 @@ STICKING_FRICTION = 1e6
 ADHESION_SLOPE = 1e3
 """Slope with which adhesion begins; also that of a pair that sticks up to a shear limit."""
 
-SIGN = np.array([0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+MOST_BRANCHES = 8
+"""Straight branches that a bound may have: codes of more are not known."""
+
+SIGN = np.array([0.0, 0.0, *[1.0, -1.0] * MOST_BRANCHES])
 """Of the friction of a slipping pair, by code."""
 
 
@@ -123,6 +127,33 @@ class FrictionBound(Bound):
     def constant(cls, size: Array) -> FrictionBound:
         """The bound that does not depend on the normal force, (n,)."""
         return cls(slopes=np.zeros((1, len(size))), starts=size[None], kinks=_between(np.zeros((1, len(size)))))
+
+    @classmethod
+    def through(cls, p: Array, F: Array) -> FrictionBound:
+        """The bound of straight lines from zero through forces F at normal forces p, (branches, n), and on as it ends.
+
+        >>> bound = FrictionBound.through(np.array([[1.0], [3.0]]), np.array([[0.5], [0.9]]))
+        >>> bound.at(np.array([2.0])).round(12).tolist()
+        [0.7]
+        """
+        zero = np.zeros((1, p.shape[1]))
+        slopes = np.diff(np.concatenate([zero, F]), axis=0) / np.diff(np.concatenate([zero, p]), axis=0)
+        return cls(slopes=slopes, starts=F - slopes * p, kinks=_between(np.concatenate([zero, p[:-1]])))
+
+    @classmethod
+    def joined(cls, bounds: Sequence[FrictionBound]) -> FrictionBound:
+        """The bound of the pairs of several, one after the other; branches that pairs do not have repeat their last."""
+        most = max(bound.branches for bound in bounds)
+
+        def padded(bound: FrictionBound, name: str) -> Array:
+            rows: Array = getattr(bound, name)
+            return np.concatenate([rows, np.repeat(rows[-1:], most - bound.branches, axis=0)])
+
+        parts = {
+            name: np.concatenate([padded(bound, name) for bound in bounds], axis=1)
+            for name in ("slopes", "starts", "kinks")
+        }
+        return cls(**parts)
 
     def fixed(self, which: BoolArray, size: Array) -> FrictionBound:
         """The bound that for some pairs, (n,), is a size, (n,), whatever the normal force."""

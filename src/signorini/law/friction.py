@@ -13,7 +13,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from itertools import groupby
-from operator import itemgetter
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -21,7 +20,9 @@ import numpy as np
 from signorini.arrays import Array, BoolArray
 from signorini.checks import number
 from signorini.errors import InputError, Where
-from signorini.law.bound import Bound, FrictionBound, JoinedBound
+from signorini.law.bound import MOST_BRANCHES, Bound, FrictionBound, JoinedBound
+
+_SLOPE_ROUNDING = 1e-12  # of a coefficient: slopes of the friction that are one line
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,72 @@ class FrictionLaw(ABC):
         return np.zeros(len(next(iter(parameters.values()))), dtype=np.bool_)
 
 
-LAWS: dict[str, type[FrictionLaw]] = {}
+@dataclass(frozen=True)
+class TabularFriction(FrictionLaw):
+    """A coefficient that falls as the pressure grows: friction goes straight from point to point, and on as it ends.
+
+    Parameters
+    ----------
+    pressures : one to eight, > 0, that grow
+    coefficients : of friction there, >= 0. The friction, coefficient times pressure, grows less and less from point to
+        point, and never falls: what falls, or grows faster, has no law that always has a solution
+
+    Examples
+    --------
+    >>> TabularFriction([1.0, 3.0], [0.5, 0.3]).words
+    'tabular friction, 0.5 up to 1, 0.3 at 3'
+    """
+
+    straight: ClassVar[bool] = True
+
+    pressures: Sequence[float]
+    coefficients: Sequence[float]
+
+    def __post_init__(self) -> None:
+        given: dict[str, tuple[float, ...]] = {}
+        for name in ("pressures", "coefficients"):
+            values = getattr(self, name)
+            if isinstance(values, str) or not isinstance(values, Sequence | np.ndarray) or not len(values):
+                raise InputError(f"is {values!r}; expected a list of numbers", where=(name,))
+            given[name] = tuple(number(value, (name, i), least=0.0) for i, value in enumerate(values))
+            object.__setattr__(self, name, given[name])
+        p, mu = (np.array(values) for values in given.values())
+        if len(p) != len(mu) or len(p) > MOST_BRANCHES:
+            words = f"has {len(mu)} for {len(p)} pressures; expected as many, at most {MOST_BRANCHES}"
+            raise InputError(words, where=("coefficients",))
+        steps = np.diff(p, prepend=0.0)
+        if not (steps > 0.0).all():
+            first = int(np.argmin(steps > 0.0))
+            raise InputError(f"is {p[first]:g}; expected pressures > 0 that grow", where=("pressures", first))
+        slopes = np.diff(p * mu, prepend=0.0) / steps
+        for i in np.flatnonzero((slopes < 0.0) | (np.diff(slopes, prepend=slopes[0]) > _SLOPE_ROUNDING)):
+            word = "falls" if slopes[i] < 0.0 else "grows faster than before"
+            words = f"is {mu[i]:g} at {p[i]:g}, up to which friction {word}; expected friction that grows less and less"
+            raise InputError(words, where=("coefficients", int(i)))
+
+    @property
+    def words(self) -> str:
+        """What `check` says of it."""
+        points = [f"{mu:g} at {p:g}" for p, mu in zip(self.pressures, self.coefficients, strict=True)]
+        return f"{self.title()} friction, {', '.join([points[0].replace(' at ', ' up to '), *points[1:]])}"
+
+    def parameters(self, points: Array) -> dict[str, Array]:
+        """Every pressure and coefficient at points (n, d), (n,) each."""
+        values = {f"pressure {i}": value for i, value in enumerate(self.pressures, start=1)}
+        values |= {f"coefficient {i}": value for i, value in enumerate(self.coefficients, start=1)}
+        return {name: np.full(len(points), value) for name, value in values.items()}
+
+    @staticmethod
+    def bound(parameters: Mapping[str, Array], area: Array) -> FrictionBound:
+        """The bound of n pairs by their parameters, (n,) each, and forces per traction, (n,)."""
+        count = len(parameters) // 2
+        p, mu = (
+            np.stack([parameters[f"{name} {i}"] for i in range(1, count + 1)]) for name in ("pressure", "coefficient")
+        )
+        return FrictionBound.through(p * area, p * mu * area)
+
+
+LAWS: dict[str, type[FrictionLaw]] = {"tabular": TabularFriction}
 """Laws that decks name, ``friction = { law = "NAME", ... }``; parameters of Coulomb's are keys of the contact."""
 
 
@@ -172,6 +238,11 @@ class Coulomb(FrictionLaw):
         return np.asarray(endless, dtype=np.bool_)
 
 
+def _alike(part: tuple[type[FrictionLaw], Mapping[str, Array]]) -> tuple[type[FrictionLaw], tuple[str, ...]]:
+    """What contacts that lie in one block share: their law, and the names of its parameters."""
+    return part[0], tuple(part[1])
+
+
 def coefficient(value: Any, where: Where) -> float | tuple[float, float]:
     """One coefficient of friction >= 0, or two of them.
 
@@ -212,14 +283,16 @@ class PairFriction:
         InputError
             If a function that gives the friction gives something else, with the contact's index.
         """
-        each = []
+        each: list[tuple[type[FrictionLaw], Mapping[str, Array]]] = []
         for i, (law, of_law) in enumerate(zip(laws, points, strict=True)):
             try:
                 each.append((type(law), law.parameters(of_law)))
             except InputError as error:
                 raise error.inside("contact", i) from error
         blocks = []
-        for kind, members in groupby(each or [(Coulomb, Coulomb().parameters(np.zeros((0, 2))))], itemgetter(0)):
+        if not each:
+            each = [(Coulomb, Coulomb().parameters(np.zeros((0, 2))))]
+        for (kind, _), members in groupby(each, _alike):
             given = [parameters for _, parameters in members]
             blocks.append((kind, {name: np.concatenate([part[name] for part in given]) for name in given[0]}))
         return cls(blocks=tuple(blocks))
@@ -240,7 +313,10 @@ class PairFriction:
         """The bound of friction forces; ``area`` (n,) forces per traction."""
         parts = zip(self.blocks, np.split(area, self._ends), strict=True)
         bounds = tuple(law.bound(parameters, own) for (law, parameters), own in parts)
-        return bounds[0] if len(bounds) == 1 else JoinedBound(parts=bounds)
+        if len(bounds) == 1:
+            return bounds[0]
+        straight = [bound for bound in bounds if isinstance(bound, FrictionBound)]
+        return FrictionBound.joined(straight) if len(straight) == len(bounds) else JoinedBound(parts=bounds)
 
     def posed(self, area: Array) -> dict[str, Any]:
         """The friction of a `ContactProblem` by its names; ``area`` (n,) forces per traction."""

@@ -14,8 +14,10 @@ from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from signorini.gallery.blocks import dragged_block
 from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, equal_half_planes
+from signorini.law.friction import TabularFriction
 from signorini.model.conditions import Support
 from signorini.model.step import Step
+from signorini.model.varying import Formula
 from signorini.reference.tresca import LimitedShear
 from signorini.verify.check import Check, checks_of
 from signorini.verify.one_node import pressed_and_pulled
@@ -58,6 +60,32 @@ def _sliding_block() -> Iterator[Check]:
             (f"friction force over the limit, thickness {thickness:g}", force / 0.01, floor.area.sum(), 1e-10),
             source="limit times area",
         )
+
+
+def friction_over_pressure() -> Iterator[Check]:
+    """A block that is dragged over a floor, at pressures on all lines of a table of coefficients."""
+    pressures, coefficients = [2.0, 5.0, 10.0], [0.4, 0.3, 0.2]
+    model = dragged_block()
+    dragged = replace(
+        model,
+        loads=[replace(model.loads[0], pressure=Formula("1 + 3*x"))],
+        supports=[Support("top", u=(0.5, None), name="drag")],
+        contacts=[replace(model.contacts[0], friction=TabularFriction(pressures, coefficients))],
+        steps=[Step(scale={"press": 1.0, "drag": 0.0}), Step(scale={"drag": 1.0}, path="exact")],
+    )
+    step = solve(dragged).steps[1]
+    floor = step.contacts[0]
+    table = np.append(np.multiply(pressures, coefficients), 2.0 + (2.0 - 1.5) / 5.0 * 90.0)
+    pressed = floor.pressure > 0.0
+    carried = np.interp(floor.pressure, [0.0, *pressures, 100.0], [0.0, *table])[pressed]
+    share = np.abs(floor.traction)[pressed] / carried
+    yield from checks_of(
+        "block dragged over a floor, friction over pressure",
+        ("friction over that of the table, smallest", share.min(), 1.0, 1e-12),
+        ("the same, largest", share.max(), 1.0, 1e-12),
+        ("work less what is stored and dissipated, of the work", step.energy_defect / step.work, 0.0, 1e-13),
+        source="the table",
+    )
 
 
 def _half_planes() -> Iterator[Check]:

@@ -61,6 +61,7 @@ QUICK: tuple[Case, ...] = (
     one_node.one_node_path,
     one_node.one_node_path_in_space,
     bounded.shear_limits,
+    bounded.friction_over_pressure,
     cylinder.paper_mesh,
     cylinder.refined,
     cylinder.literal_equals_compliance,
