@@ -32,6 +32,8 @@ _HEAD = (
     "of automatic blocks, %",
     "worn area, 1e-3 mm2",
 )
+WAYS = ("every", "jumps", "blocks", "auto")
+_NAMES = {"every": "every cycle", "jumps": "jumps of 100", "blocks": "blocks of 100", "auto": "automatic blocks"}
 _TOLERANCE = 0.02  # of automatic blocks: of what a block wears
 _BLOCKS: dict[str, dict[str, Any]] = {"blocks": {"block": 100}, "auto": {"block": "auto", "tolerance": _TOLERANCE}}
 
@@ -106,59 +108,62 @@ PUBLISHED = {1000: 0.3784, 5000: 1.1311, 10_000: 1.8145, 18_000: 2.7130}
 _DOCS = Path(__file__).parent.parent / "docs"
 
 
-def write_page(every: dict[str, Any], jumps: dict[str, Any]) -> None:
-    """Table and picture of both ways into docs/wear.md.
+def write_page(found: dict[str, dict[str, Any]]) -> None:
+    """Table and picture of all ways into docs/wear.md.
 
     Parameters
     ----------
-    every, jumps : what `measure` found
+    found : what `measure` found, by its way
     """
-    rows = []
+    every, rows = found["every"], []
     for cycle, published in PUBLISHED.items():
-        one, other = (1e3 * max(found["shown"][str(cycle)]["flat"]) for found in (every, jumps))
+        one, *others = (1e3 * max(found[way]["shown"][str(cycle)]["flat"]) for way in WAYS)
         volume = every["shown"][str(cycle)]["volume"]
         rows.append((
             f"{cycle}", f"{one:.4f}", f"{published:.4f}", f"{100.0 * (one / published - 1.0):+.2f}",
-            f"{other:.4f}", f"{100.0 * (other / one - 1.0):+.2f}", f"{1e3 * max(volume):.5f}",
+            *(f"{100.0 * (other / one - 1.0):+.2f}" for other in others), f"{1e3 * max(volume):.5f}",
         ))  # fmt: skip
     nominal = WEAR.mortar * every["cycles"] * 4.0 * STROKE * FORCE
     lost = max(every["shown"][str(CYCLES)]["volume"]) / nominal
-    worst, defect = every["residual"], every["defect"]
+    worst, defect = (max(each[key] for each in found.values()) for key in ("residual", "defect"))
+    costs = "; ".join(f"{_NAMES[way]}: {found[way]['seconds']:.0f}" for way in WAYS)
+    notes = "; ".join(f"{_NAMES[way]}: {note}" for way in ("blocks", "auto") for note in found[way]["notes"])
     text = (
-        f"{page.table(_HEAD, rows)}\n\nEvery cycle: {every['seconds']:.0f} CPU s, {every['nodes']} nodes, worst "
-        f"certificate of its steps {worst:.1e}, energy defect over work {defect:.0e}; jumps of 100: "
-        f"{jumps['seconds']:.0f} CPU s. The flat has lost {lost:.3f} of k P 4 s N; the rest of the stroke is that of "
-        "the bodies, which strain. Published: level sets, 180 jumps of 100, 20 573 CPU s."
+        f"{page.table(_HEAD, rows)}\n\nCPU seconds: {costs}; {every['nodes']} nodes. Worst certificate of the steps "
+        f"{worst:.1e}, energy defect over work {defect:.0e}. {notes.capitalize()}. The flat has lost {lost:.3f} of "
+        "k P 4 s N; the rest of the stroke is that of the bodies, which strain. Published: level sets, 180 jumps of "
+        "100, 20 573 CPU s."
     )
     page.write("fretting wear", text, _DOCS / "wear.md")
-    _draw(every, jumps, _DOCS / "figures" / "fretting_wear.png")
+    _draw(found, _DOCS / "figures" / "fretting_wear.png")
 
 
-def _draw(every: dict[str, Any], jumps: dict[str, Any], path: Path) -> None:
-    """Profiles, pressures, depth over the cycles and what jumps cost."""
+def _draw(found: dict[str, dict[str, Any]], path: Path) -> None:
+    """Profiles, pressures, depth over the cycles and what jumps and blocks cost."""
     import matplotlib as mpl
 
     mpl.use("Agg")
     from matplotlib import pyplot as plt
 
+    every = found["every"]
     figure, ((profile, pressure), (depth, cost)) = plt.subplots(2, 2, figsize=(11.0, 7.5), layout="constrained")
     for shade, cycle in zip(np.linspace(0.85, 0.15, len(SHOWN)), SHOWN, strict=True):
-        found, color = every["shown"][str(cycle)], plt.get_cmap("viridis")(shade)
-        profile.plot(found["x"], -1e3 * np.array(found["flat"]), color=color, label=f"{cycle} cycles")
-        pressure.plot(found["pad_x"], found["pressure"], color=color, label=f"{cycle} cycles")
+        shown, color = every["shown"][str(cycle)], plt.get_cmap("viridis")(shade)
+        profile.plot(shown["x"], -1e3 * np.array(shown["flat"]), color=color, label=f"{cycle} cycles")
+        pressure.plot(shown["pad_x"], shown["pressure"], color=color, label=f"{cycle} cycles")
     profile.set(xlabel="x, mm", ylabel="height, µm", title="profile of the flat")
     pressure.set(xlabel="x, mm", ylabel="pressure, MPa", title="pressure where the stroke turns")
-    cycles = [int(key) for key in every["shown"] if int(key) > 1]
-    depths = [1e3 * max(every["shown"][str(cycle)]["flat"]) for cycle in cycles]
-    jumped = [1e3 * max(jumps["shown"][str(cycle)]["flat"]) for cycle in cycles]
-    depth.plot(cycles, depths, "o-", label="every cycle")
+    cycles = [cycle for cycle in map(int, every["shown"]) if cycle > 1]
+    depths = {way: [1e3 * max(found[way]["shown"][str(cycle)]["flat"]) for cycle in cycles] for way in WAYS}
+    depth.plot(cycles, depths["every"], "o-", label="every cycle")
     depth.plot(list(PUBLISHED), list(PUBLISHED.values()), "kx", ms=9, label="level sets (published)")
     depth.set(xlabel="cycles", ylabel="depth of the flat, µm", title="deepest place")
-    cost.loglog(cycles, [abs(other / one - 1.0) for one, other in zip(depths, jumped, strict=True)], "s-", color="C3")
-    cost.set(xlabel="cycles", ylabel="relative error of the depth", title="what jumps of 100 cycles cost")
-    for axes in (profile, pressure, depth):
-        axes.legend(frameon=False)
+    for way, line in (("jumps", "s-"), ("blocks", "o-"), ("auto", "^--")):
+        errors = [abs(other / one - 1.0) for one, other in zip(depths["every"], depths[way], strict=True)]
+        cost.loglog(cycles, errors, line, label=_NAMES[way])
+    cost.set(xlabel="cycles", ylabel="relative error of the depth", title="what jumps and blocks of cycles cost")
     for axes in (profile, pressure, depth, cost):
+        axes.legend(frameon=False)
         axes.grid(alpha=0.3)
     figure.savefig(path, dpi=110)
 
@@ -166,7 +171,7 @@ def _draw(every: dict[str, Any], jumps: dict[str, Any], path: Path) -> None:
 def main() -> None:
     """Measure a way into a file, or write the page from two of them."""
     if sys.argv[1] == "page":
-        write_page(*(json.loads(Path(name).read_text()) for name in sys.argv[2:4]))
+        write_page({found["way"]: found for found in (json.loads(Path(name).read_text()) for name in sys.argv[2:])})
         return
     way, path = sys.argv[1], Path(sys.argv[2])
     cycles = int(sys.argv[3]) if len(sys.argv) > 3 else CYCLES
