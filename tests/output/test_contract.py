@@ -91,6 +91,7 @@ _LONG = (
     "bolted_joint",
     "fretting",
     "fretting_fatigue",
+    "fretting_wear",
     "indentation",
     "wear",
 )

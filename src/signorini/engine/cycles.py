@@ -163,3 +163,12 @@ def _since(cycles: Sequence[Cycle], holds: Sequence[bool]) -> int | None:
         return None
     broken = [cycle.number for cycle, held in zip(cycles, holds, strict=True) if not held]
     return (broken[-1] if broken else 0) + 1
+
+
+def is_round(number: int) -> bool:
+    """Whether a number is 1, 2 or 5 times a power of ten.
+
+    >>> [number for number in range(1, 101) if is_round(number)]
+    [1, 2, 5, 10, 20, 50, 100]
+    """
+    return str(number).rstrip("0") in ("1", "2", "5")

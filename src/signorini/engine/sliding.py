@@ -46,6 +46,9 @@ _SHORTER = 8.0  # times: a stride that is lost is tried again
 _SHORTEST_SHARE = 1e-6  # of the rest of a part: below it no stride that is lost is tried again
 _SAID_FROM = 1e-12  # of the largest force: what may fade away and no one need know
 
+FOLLOWED = "pairs followed the bodies in"
+"""What a part says that was followed in strides, and in how many."""
+
 Follow = Callable[[StepPart], FollowedPart]
 
 
@@ -331,7 +334,7 @@ def _finished(part: StepPart, strides: list[Stride]) -> FollowedPart:
     after = replace(followed.after, point=replace(followed.after.point, gap=part.end.gap))
     notes = followed.notes
     if changed > _SAID_FROM:
-        words = f"pairs followed the bodies in {len(strides)} strides; what fades away at a node as they hand over"
+        words = f"{FOLLOWED} {len(strides)} strides; what fades away at a node as they hand over"
         notes = (*notes, f"{words} is up to {changed:.1e} of the largest force of a pair")
     return replace(
         followed,

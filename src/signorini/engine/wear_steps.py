@@ -18,12 +18,12 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.attempt import MethodRun
 from signorini.engine import stride_correction, wear_correction
-from signorini.engine.cycles import cycle_between
+from signorini.engine.cycles import cycle_between, is_round
 from signorini.engine.events import stops_at
 from signorini.engine.moved_mesh import between_moved, deepest_wear, given_way, giving_way
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose, worn
-from signorini.engine.sliding import Stride, follow_sliding
+from signorini.engine.sliding import FOLLOWED, Stride, follow_sliding
 from signorini.engine.sliding_cycles import SlidingCycles
 from signorini.engine.step_parts import (
     FollowedPart,
@@ -297,7 +297,9 @@ class _Walk:
             load_factor=self.stage.number - 1 + number / step.repeat,
             worn=float(lost.sum()),
         )
-        whole = replace(whole, cycles=(cycle,) if step.repeat > 1 else ())
+        # strides of other cycles are those of the first
+        notes = tuple(note for note in whole.notes if number == 1 or not note.startswith(FOLLOWED))
+        whole = replace(whole, notes=notes, cycles=(cycle,) if step.repeat > 1 else ())
         if self._kept(number):
             self.ends.append(cycle.load_factor)
         else:
@@ -389,12 +391,3 @@ class _Walk:
 def _correct(paths: WornPaths | SlidingCycles) -> Correct:
     """Newton's step of blocks of cycles."""
     return partial(wear_correction.corrected, paths) if isinstance(paths, WornPaths) else stride_correction.corrected
-
-
-def is_round(number: int) -> bool:
-    """Whether a number is 1, 2 or 5 times a power of ten.
-
-    >>> [number for number in range(1, 101) if is_round(number)]
-    [1, 2, 5, 10, 20, 50, 100]
-    """
-    return str(number).rstrip("0") in ("1", "2", "5")

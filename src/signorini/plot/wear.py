@@ -103,12 +103,13 @@ def _profiles(_: Figure, panels: Array, course: _Course) -> None:
         for mortar, line in ((False, "-"), (True, "--")):
             side = wear.on_mortar == mortar
             if side.any():
-                points = wear.points[side]
-                place = points[:, "xy".index(axis)] if axis in ("x", "y") else surface_coordinate(points)[1]
-                at = np.argsort(place, kind="stable")
-                panels[0].plot(place[at], wear.depths[side][at], line, color=colour, lw=1.5)
-    touched = np.any([c.closed | (c.wear is not None and c.wear.depth > 0.0) for c in course.contacts], axis=0)
-    low, high = s[touched].min(initial=np.inf), s[touched].max(initial=-np.inf)
+                x = _along(wear.points[side], axis)
+                at = np.argsort(x, kind="stable")
+                panels[0].plot(x[at], wear.depths[side][at], line, color=colour, lw=1.5)
+    worn = course.worn[-1].depths > 0.0
+    places = _along(course.worn[-1].points[worn], axis) if worn.any() else np.zeros(0)
+    shown = np.concatenate([s[np.any([c.closed for c in course.contacts], axis=0)], places])
+    low, high = shown.min(initial=np.inf), shown.max(initial=-np.inf)
     if high > low:
         for panel in panels:
             panel.set_xlim(low - _SHOWN * (high - low), high + _SHOWN * (high - low))
@@ -121,6 +122,11 @@ def _profiles(_: Figure, panels: Array, course: _Course) -> None:
     panels[0].legend(handles=sides, fontsize=8.5, frameon=False, loc="lower right")
     dress(panels[1], x=place, y="pressure, force per area", title="pressure after cycles")
     panels[1].legend(fontsize=8.5, frameon=False, loc="upper right")
+
+
+def _along(points: Array, axis: str) -> Array:
+    """(k,) Coordinate of points along the surface, as of `surface_coordinate`."""
+    return np.asarray(points[:, "xy".index(axis)]) if axis in ("x", "y") else surface_coordinate(points)[1]
 
 
 def _maps(figure: Figure, panels: Array, course: _Course) -> None:

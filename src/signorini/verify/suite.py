@@ -123,6 +123,7 @@ SLOW: tuple[Case, ...] = (
     indentation.rolling,
     wear.worn_cylinder,
     sliding.dissimilar_rollers,
+    wear.fretting_over_elements,
 )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from signorini.engine.solve import solve
 from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, equal_half_planes
 from signorini.gallery.half_planes import FRICTION as EQUAL_FRICTION
-from signorini.gallery.wearing import FRICTION, RADIUS, rubbed_cylinder, to_and_fro
+from signorini.gallery.wearing import FRICTION, RADIUS, WEAR, fretting, rubbed_cylinder, to_and_fro
 from signorini.model.step import Step
 from signorini.model.wear import Wear
 from signorini.verify.check import Check, checks_of
@@ -61,6 +61,26 @@ def worn_cylinder() -> Iterator[Check]:
         ("half-width, to a node distance", 0.5 * contact.closed_area, half, 0.02 / half, "worn area 2 a^3 / 3 R"),
         ("deepest", contact.wear.deepest[0], half**2 / (2.0 * RADIUS), 0.03, "a^2 / 2 R"),
         source="rigid cylinder",
+    )
+
+
+def fretting_over_elements() -> Iterator[Check]:
+    """McColl, Ding and Leen's cylinder, 1000 cycles of 25 um to and fro in blocks of 100, nodes at 0.02."""
+    steps = fretting(1000, block=100)
+    history = solve(rubbed_cylinder(steps, spacing=0.02, stroke=0.025, sliding="finite"))
+    step = history.steps[-1]
+    assert step.contacts[0].wear is not None
+    assert history.end is not None
+    assert history.end.state.wear is not None
+    wear = history.end.state.wear
+    rubbed = sum(step.dissipation for step in history.steps) / FRICTION
+    coefficients = WEAR.nonmortar + WEAR.mortar
+    yield from checks_of(
+        "fretting over elements, 1000 cycles",
+        ("depth of the flat, um", 1e3 * step.contacts[0].wear.deepest[1], 0.3784, 0.02, "level sets (published)"),
+        ("worn volume / k int p ds", float((wear.volume + wear.loose).sum()) / (coefficients * rubbed), 1.0, 1e-12),
+        ("energy defect / work", step.energy_defect / step.work, 0.0, 1e-12, "first law"),
+        source="Archard (1953)",
     )
 
 
