@@ -245,7 +245,6 @@ def test_a_block_in_space_slides_askew_and_keeps_its_axes() -> None:
     ("given", "words"),
     [
         ({"friction": "tied"}, "a tied contact does not slide"),
-        ({"gap": "zero"}, "gaps are not those of the geometry"),
         ({"coupling": "nodes"}, "coupling is 'nodes'"),
         ({"sliding": "far"}, "unknown sliding 'far'"),
     ],

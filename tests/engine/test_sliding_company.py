@@ -152,9 +152,21 @@ def test_what_does_not_go_with_models_that_slide_is_refused_by_name() -> None:
         sg.prepare(model, backend="iterative")
     with pytest.raises(sg.InputError, match="coupling is 'node-to-segment'"):
         block_on_bed(coupling="node-to-segment")
-    for gap in ({"gap": 0.1}, {"adjust": 0.1}):
-        with pytest.raises(sg.InputError, match="gaps are not those of the geometry"):
-            block_on_bed(**gap)
+
+
+@pytest.mark.parametrize("given", [{"gap": "zero"}, {"adjust": 0.1}, {"gap": 0.0}])
+def test_a_gap_that_is_given_goes_along(given: dict[str, object]) -> None:
+    """A sole that is drawn too high slides as one that is not; its gap is given where it is, at the beginning."""
+    drawn = block_on_bed()
+    points = drawn.mesh.points.copy()
+    points[points[:, 1] > 1e-9, 1] += 0.05
+    points[drawn.mesh.nodes_of("top.bottom"), 1] += 0.05
+    lifted = block_on_bed(**given)
+    one, two = (sg.solve(model).last for model in (drawn, replace(lifted, mesh=replace(lifted.mesh, points=points))))
+    assert resultants(two) == pytest.approx(resultants(one), rel=1e-6)
+    # normals that strain tilts cross the gap that is drawn
+    assert two.work == pytest.approx(one.work, rel=1e-5)
+    assert np.abs(two.displacement - one.displacement).max() < 1e-5 * np.abs(one.displacement).max()
 
 
 def test_supports_let_go_beside_it() -> None:

@@ -17,8 +17,12 @@ _COORDINATE_TOL = 16.0 * float(np.finfo(np.float64).eps)  # of a coordinate: wha
 _CURVE_TOL = 0.01  # of a gap: what it may be more along the normal of a facet than along that of a curve
 
 
-def initial_gaps(geometry: Array, contact: Contact, seen: Callable[[Varying, str], Array], *, farthest: float) -> Array:
-    """What a contact makes of the gaps that the geometry has, (n,) length, negative: overlap.
+def initial_gaps(
+    geometry: Array, contact: Contact, seen: Callable[[Varying, str], Array], *, farthest: float
+) -> tuple[Array, Array]:
+    """What a contact makes of the gaps that the geometry has, and what of it the geometry has not, (n,) length each.
+
+    Gaps are negative where sides overlap. An interference counts as one of the geometry.
 
     Gaps that are rounding of coordinates are none: beside small loads they would be, and where supports hold both sides
     an overlap of a last digit would prove that nothing is in equilibrium.
@@ -38,7 +42,7 @@ def initial_gaps(geometry: Array, contact: Contact, seen: Callable[[Varying, str
     else:
         assert not isinstance(contact.gap, str)
         gap = seen(contact.gap, "gap")
-    return gap - seen(contact.interference, "interference")
+    return gap - seen(contact.interference, "interference"), gap - geometry
 
 
 def normal_gap(coupling: Coupling, nodes: IntArray, normals: Array, distance: Array) -> Array:

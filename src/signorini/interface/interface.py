@@ -44,6 +44,7 @@ class Interface:
     ----------
     B : (d n, dofs) sparse; n normal rows, then n rows of every tangent
     gap : (n,) initial gaps g, length, negative where the bodies overlap
+    given : (n,) of it what is given, not of the geometry: nodes of the nonmortar side carry it along
     area : (n,) tributary area, see :class:`signorini.interface.coupling.Coupling`
     normals : (n, d) unit vectors
     tangents : (n, d - 1, d) unit vectors
@@ -62,6 +63,7 @@ class Interface:
 
     B: sp.csr_array
     gap: Array
+    given: Array
     area: Array
     normals: Array
     tangents: Array
@@ -198,6 +200,7 @@ def make_interface(
     return Interface(
         B=B,
         gap=gap if closure is None else gap - closure.clearance,
+        given=_joined([part.given for part in parts], (0,)),
         area=area,
         normals=normals,
         tangents=axes,

@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.spatial import KDTree
 
 from signorini.arrays import Array, BoolArray, IntArray, selection
 from signorini.errors import InputError, Where
@@ -61,6 +62,7 @@ class Pairs:
     own : (m,) nodes of the nonmortar side
     coupling : with the normals in the planes of symmetry
     gap : (k,)
+    given : (k,) of it what is given, not of the geometry
     sliding : as ``coupling.forces`` for the tangential part; it differs on planes of symmetry in 2D
     mirrored : (k, d) in space whether a pair lies on a plane of symmetry across a coordinate axis
     sides : how they were found
@@ -70,6 +72,7 @@ class Pairs:
     own: IntArray
     coupling: Coupling
     gap: Array
+    given: Array
     sliding: tuple[sp.csr_array, ...]
     mirrored: BoolArray
     sides: Sides
@@ -133,10 +136,12 @@ def _on_obstacle(
     _refuse_no_normal(space, coupling, where)
     seen = partial(_seen, space, side, coupling, normals, where[:2])
     gap = resolved(normal_gap(coupling, side.nodes, normals, distance), coupling, seen(1.0, ""))
+    gap, given = initial_gaps(gap, contact, seen, farthest=float(np.abs(points).max()))
     return Pairs(
         own=side.nodes,
         coupling=coupling,
-        gap=initial_gaps(gap, contact, seen, farthest=float(np.abs(points).max())),
+        gap=gap,
+        given=given,
         sliding=coupling.forces,
         mirrored=np.zeros(coupling.normals.shape, bool),
         sides=Sides(nonmortar=contact.nonmortar, mortar=str(obstacle), coupling="obstacle"),
@@ -201,10 +206,12 @@ def _on_side(
         gap = resolved(gap, whole, seen(1.0, ""))
     partner = symmetric_partners(space, constraints, coupling.nodes, coupling.normals, mortar.nodes)
     coupling = replace(coupling, forces=_without_removed(whole, coupling.normal_areas, partner))
+    gap, given = initial_gaps(gap, contact, seen, farthest=float(np.abs(points).max()))
     pairs = Pairs(
         own=side.nodes,
         coupling=coupling,
-        gap=initial_gaps(gap, contact, seen, farthest=float(np.abs(points).max())),
+        gap=gap,
+        given=given,
         sliding=_mirrored(coupling, partner.max(axis=1)) if plane else coupling.forces,
         mirrored=(partner >= 0) & (not plane),
         sides=Sides(
@@ -216,18 +223,20 @@ def _on_side(
     )
     if not contact.slides:
         return pairs
-    return _of_all_nodes(pairs, side, search_distance(side, mortar, contact.search))
+    return _of_all_nodes(pairs, side, points, search_distance(side, mortar, contact.search))
 
 
-def _of_all_nodes(pairs: Pairs, side: Boundary, reach: float) -> Pairs:
+def _of_all_nodes(pairs: Pairs, side: Boundary, points: Array, reach: float) -> Pairs:
     """Pairs of all nodes that ever carry one, so that their number stays as sides slide.
 
-    What has nothing opposite has a pair that sees nothing, as far apart as sides may be opposite each other.
+    What has nothing opposite has a pair that sees nothing, as far apart as sides may be opposite each other; a gap that
+    is given it has from the nearest pair that has something.
 
     Parameters
     ----------
     pairs : of the nodes that something is opposite
     side : the nonmortar side
+    points : (nodes, d) of the mesh
     reach : how far apart sides may be and still be opposite each other, length
     """
     nodes = side.corner_nodes
@@ -236,10 +245,13 @@ def _of_all_nodes(pairs: Pairs, side: Boundary, reach: float) -> Pairs:
     areas[there] = pairs.coupling.normal_areas
     gap, mirrored = np.full(len(nodes), reach), np.zeros(areas.shape, bool)
     gap[there], mirrored[there] = pairs.gap, pairs.mirrored
+    given = np.zeros(len(nodes))
+    if pairs.given.any():
+        given = pairs.given[KDTree(points[nodes[there]]).query(points[nodes])[1]]
     rows = selection(there, len(nodes)).T
     forces, sliding = (tuple(sp.csr_array(rows @ part) for part in of) for of in (pairs.coupling.forces, pairs.sliding))
     coupling = Coupling(nodes=nodes, normal_areas=areas, forces=forces)
-    return replace(pairs, coupling=coupling, gap=gap, sliding=sliding, mirrored=mirrored)
+    return replace(pairs, coupling=coupling, gap=gap, given=given, sliding=sliding, mirrored=mirrored)
 
 
 def _couple(

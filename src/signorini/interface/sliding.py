@@ -80,6 +80,8 @@ def paired_at(
         found = _along(found, spun(interface, frames, displacement).tangents[own, 0])
     if frames:
         found = replace(found, B=_seen_from_frames(found, moved, frames, displacement))
+    if interface.given.any():
+        found = replace(found, gap=np.where(facing(found), found.gap - found.given + interface.given[own], found.gap))
     arrays = {}
     for name in ("gap", "area", "normals", "tangents"):
         arrays[name] = getattr(interface, name).copy()

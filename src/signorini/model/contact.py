@@ -169,8 +169,6 @@ class Contact:
         finite = 'is "finite", but'
         if self.tied:
             raise InputError(f"{finite} a tied contact does not slide", where=("sliding",))
-        if self.gap != "geometry" or self.adjust is not None:
-            raise InputError(f"{finite} gaps are not those of the geometry", where=("sliding",))
         if self.coupling in ("nodes", "node-to-segment"):
             words = f"{finite} coupling is '{self.coupling}'; expected 'mortar', or 'auto', which is mortar here"
             raise InputError(words, where=("sliding",))

@@ -101,7 +101,7 @@ def _pairs_of(
         given = _adjusted(card, slave, known)
         if (slave.name, master.name) in clearances:
             given = {"gap": clearances[slave.name, master.name][0]}
-        stays = law.tied or law.closure is not None or given.keys() & {"gap", "adjust"}
+        stays = law.tied or law.closure is not None
         if large and not stays and "SMALL SLIDING" not in card.parameters:
             given["sliding"] = "finite"
         given |= _compliances(law)
