@@ -30,6 +30,7 @@ FEATURES = {
         "model/plastic",
     ],
     "temperatures": ["fem/thermal"],
+    "natural modes": ["vibration", "fem/mass", "linalg/inertia", "model/modes"],
     "values that vary": ["model/varying", "deck/varying", "fem/varying"],
     "tied sides": ["condense/ties"],
     "steps that change contacts or supports": ["engine/contact_changes", "engine/support_changes"],

@@ -152,6 +152,22 @@ def test_compliance_of_a_contact_is_a_spring():
     assert found[1] == pytest.approx(k / m, rel=1e-4)
 
 
+@pytest.mark.parametrize(("unloading", "slope"), [(None, 80.0), (400.0, 400.0)])
+def test_a_closure_is_the_spring_of_its_line(unloading, slope):
+    """A nearly rigid block on a gasket: up and down on the line that its pressure is on, or on that back from there."""
+    gasket = sg.Closure([(0.0, 0.0), (0.1, 1.0), (0.15, 5.0)], unloading=unloading)
+    model = sg.Model(
+        sg.rectangle(width=2.0, height=1.0, nx=4, ny=2),
+        kind="plane stress",
+        bodies=[sg.Body("block", replace(STEEL, E=1e7))],
+        supports=[sg.Support("left", u=(0.0, None)), sg.Support("right", u=(0.0, None))],
+        loads=[sg.Load("top", pressure=2.0)],
+        contacts=[sg.Contact("bottom", sg.Plane(point=(0, 0), normal=(0, 1)), closure=gasket)],
+    )
+    found = sg.natural_modes(sg.solve(model), 2, joint="slipping").squares
+    assert np.abs(found / (slope / STEEL.density) - 1.0).min() < 1e-3  # pressure per length over mass per area
+
+
 def test_a_rigid_body_has_the_mass_of_its_cells():
     mesh = sg.rectangle(width=2.0, height=1.0, nx=4, ny=2)
     model = sg.Model(

@@ -23,6 +23,7 @@ from signorini.model.modes import SLIPPING, STUCK
 from signorini.solution.checkpoint import Checkpoint
 
 _TOUCHING_GAP = 1e-9  # of the size of the mesh: smaller gaps of an unsolved model are closed
+_SPRINGING_SHARE = 1.0 - 1e-9  # of a pressure: where lines of a closure meet, the one by which it springs back
 _HELD_ROW = 1e-10  # of the largest row of B: smaller ones are rounding, supports hold such pairs
 
 
@@ -141,7 +142,8 @@ def _compliance(model: Model, interface: Interface, end: Checkpoint | None) -> A
     if closure is not None:
         pressure = np.zeros(len(interface)) if end is None else end.state.forces[0] / interface.area
         now = closure if end is None else closure.after(end.state.borne)
-        own[0] = now.of_lines(now.line(pressure))[0] / interface.area
+        line = now.line(_SPRINGING_SHARE * np.maximum(pressure, 0.0))
+        own[0] = now.of_lines(line)[0] / interface.area
     own[:, interface.tied] = 0.0  # a tie has none
     return np.concatenate([own, *[own[1:]] * (interface.directions - 2)])
 
