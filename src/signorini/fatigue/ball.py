@@ -59,6 +59,16 @@ def smallest_ball(points: Array) -> tuple[Array, float]:
 
 
 @njit(cache=True)
+def smallest_balls(paths: Array) -> tuple[Array, Array]:
+    """Centres (n, d) and radii (n,) of the smallest balls around paths (n, t, d)."""
+    n, _, d = paths.shape
+    centres, radii = np.zeros((n, d)), np.zeros(n)
+    for i in range(n):
+        centres[i], radii[i] = smallest_ball(paths[i])
+    return centres, radii
+
+
+@njit(cache=True)
 def _square(one: Array, other: Array) -> float:
     """Square of a distance."""
     total = 0.0
@@ -88,7 +98,8 @@ def _middle(points: Array, touching: Array) -> tuple[Array, Array]:
         edges[i] = points[touching[i + 1]] - first
     for i in range(count):
         for j in range(count):
-            gram[i, j] = (edges[i] * edges[j]).sum()
+            for k in range(points.shape[1]):
+                gram[i, j] += edges[i, k] * edges[j, k]
     own = np.array([0.5 * gram[i, i] for i in range(count)])
     least = np.array([_DEPENDENT * gram[i, i] for i in range(count)])
     for i in range(count):  # Cholesky's elimination, without square roots
@@ -118,11 +129,15 @@ def _first_touched(points: Array, touching: Array, centre: Array, goal: Array, s
     if length <= _OUTWARD * size:
         return stop, reached
     for i in range(len(points)):
+        outward = 0.0
+        for k in range(len(way)):  # no array a point
+            outward += way[k] * (first[k] - points[i, k])
+        if outward <= _OUTWARD * length * size:
+            continue
         known = False
         for own in touching:
             known = known or own == i
-        outward = (way * (first - points[i])).sum()
-        if known or outward <= _OUTWARD * length * size:
+        if known:
             continue
         part = max(0.0, (square - _square(points[i], centre)) / (2.0 * outward))
         if part < reached:

@@ -6,10 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array
-from signorini.fatigue.ball import smallest_ball
+from signorini.fatigue.ball import smallest_balls
 from signorini.fatigue.criteria import SWT, Crossland, DangVan, FatemiSocie, FatigueCriterion, FatigueLimits, StrainLife
 from signorini.fatigue.planes import critical_planes, grid_of_planes
 
@@ -67,7 +66,7 @@ def _of_deviators(criterion: FatigueLimits, stress: Array) -> Damage:
     """Crossland's and Dang Van's parameters."""
     hydrostatic = stress[..., :3].mean(axis=-1)
     path = _deviators(stress)
-    centre, radius = _balls(path)
+    centre, radius = smallest_balls(path)
     limit = criterion.torsion_limit
     if isinstance(criterion, Crossland):
         amplitude, most = radius / np.sqrt(2.0), hydrostatic.max(axis=1)
@@ -103,22 +102,12 @@ def _tresca(deviator: Array) -> Array:
     return half
 
 
-@njit(cache=True)
-def _balls(paths: Array) -> tuple[Array, Array]:
-    """Centres (n, d) and radii (n,) of the smallest balls around paths (n, t, d)."""
-    n, _, d = paths.shape
-    centres, radii = np.zeros((n, d)), np.zeros(n)
-    for i in range(n):
-        centres[i], radii[i] = smallest_ball(paths[i])
-    return centres, radii
-
-
 def path_amplitudes(paths: Array) -> Array:
     """(n,) Radii of the smallest circles around paths (n, t, d): half the range where d is 1."""
     if paths.shape[2] == 1:
         half: Array = 0.5 * np.ptp(paths[..., 0], axis=1)
         return half
-    return _balls(np.ascontiguousarray(paths))[1]
+    return smallest_balls(np.ascontiguousarray(paths))[1]
 
 
 def cycles_to_failure(criterion: StrainLife, parameter: Array, modulus: Array) -> Array:

@@ -110,27 +110,35 @@ def _tangents(normal: Array) -> tuple[Array, Array]:
 def _on_plane(normal: Array, stress: Array, strain: Array, shear: bool, slope: float) -> tuple[float, float, float]:
     """The parameter on a plane, the amplitude of its strain and its largest normal stress."""
     most, low, high = -np.inf, np.inf, -np.inf
-    x, y, z = normal
+    across = _weights(normal, normal)
     for t in range(len(stress)):
-        most = max(most, _across(stress[t], x, y, z))
+        most = max(most, _component(stress, t, across))
         if not shear:
-            along = _across(strain[t], x, y, z)
+            along = _component(strain, t, across)
             low, high = min(low, along), max(high, along)
     if not shear:
         return 0.5 * (high - low) * max(most, 0.0), 0.5 * (high - low), most
     one, other = _tangents(normal)
-    path = np.zeros((len(strain), 2))
+    first, second = _weights(normal, one), _weights(normal, other)
+    path = np.empty((len(strain), 2))
     for t in range(len(strain)):
-        e = strain[t]
-        pulled = (e[0] * x + e[3] * y + e[5] * z, e[3] * x + e[1] * y + e[4] * z, e[5] * x + e[4] * y + e[2] * z)
-        for i in range(3):
-            path[t, 0] += 2.0 * one[i] * pulled[i]
-            path[t, 1] += 2.0 * other[i] * pulled[i]
+        path[t, 0] = 2.0 * _component(strain, t, first)
+        path[t, 1] = 2.0 * _component(strain, t, second)
     amplitude = smallest_ball(path)[1]
     return amplitude * max(1.0 + slope * most, 0.0), amplitude, most
 
 
 @njit(cache=True)
-def _across(s: Array, x: float, y: float, z: float) -> float:
-    """``n . s n`` of a tensor."""
-    return s[0] * x * x + s[1] * y * y + s[2] * z * z + 2.0 * (s[3] * x * y + s[4] * y * z + s[5] * x * z)
+def _weights(a: Array, b: Array) -> Array:
+    """(6,) What the components of a tensor s count for in ``a . s b``."""
+    products = (a[0] * b[1] + a[1] * b[0], a[1] * b[2] + a[2] * b[1], a[0] * b[2] + a[2] * b[0])
+    return np.array([a[0] * b[0], a[1] * b[1], a[2] * b[2], products[0], products[1], products[2]])
+
+
+@njit(cache=True)
+def _component(tensors: Array, t: int, weights: Array) -> float:
+    """A weighted sum of the components of one of several tensors."""
+    total = 0.0
+    for k in range(6):
+        total += weights[k] * tensors[t, k]
+    return total
