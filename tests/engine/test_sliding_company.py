@@ -169,6 +169,15 @@ def test_a_gap_that_is_given_goes_along(given: dict[str, object]) -> None:
     assert np.abs(two.displacement - one.displacement).max() < 1e-5 * np.abs(one.displacement).max()
 
 
+def test_friction_that_is_lowered_lets_go_gradually() -> None:
+    """What it held back fades away where sides hand over next, and what that sets free is no work of loads."""
+    model = block_on_bed()
+    *_, drag, oil = sg.solve(replace(model, steps=[*model.steps, sg.Step(name="oil", friction={"sole": 0.1})])).steps
+    assert resultants(oil) == pytest.approx((1.0, 0.1), rel=2e-3)
+    assert 0.0 < oil.released < oil.contacts[0].dissipation + drag.strain_energy - oil.strain_energy
+    assert abs(oil.energy_defect) < 1e-12 * drag.work
+
+
 def test_supports_let_go_beside_it() -> None:
     model = block_on_bed()
     stop = sg.Support("bed.left", u=(0.0, None), name="stop")
