@@ -11,6 +11,7 @@ import signorini as sg
 from signorini.engine.increments import measured
 from signorini.engine.prepare import prepare
 from signorini.gallery.closures import GASKET, block_on_a_bed
+from signorini.output.ccx_contact import slave_energies
 
 CLOSURES, PRESSURES = np.transpose(GASKET.points)
 SLANTED = "1 + 7*x"  # over a width of 2: pairs pass kinks of all kinds, one after the other
@@ -226,3 +227,11 @@ def test_a_gasket_in_space_and_a_state_of_it_in_a_file(tmp_path):
     bare = replace(model, steps=steps[2:], contacts=[replace(model.contacts[0], closure=replace(KEPT, unloading=None))])
     with pytest.raises(sg.InputError, match="the compliance of unloading"):
         sg.solve(bare, start=tmp_path / "start.npz")
+
+
+@pytest.mark.parametrize("closure", [GASKET, KEPT])
+def test_energies_of_nodes_that_files_have_add_up_to_that_of_the_interface(closure):
+    steps = [PRESS, sg.Step(scale={"p": 0.7}, path="exact")]
+    for step in sg.solve(block_on_a_bed(SLANTED, closure, cells=4, steps=steps)).steps:
+        contact = sg.Contact("bottom", "top", closure=closure)
+        assert slave_energies(contact, step.contacts[0]).sum() == pytest.approx(step.interface_energy, rel=1e-12)

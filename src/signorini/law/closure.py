@@ -144,6 +144,18 @@ class Closure:
         """Closure per pressure up to the last point, length per pressure."""
         return (self.points[-1][0] - self.points[0][0]) / self.points[-1][1]
 
+    def stored(self, pressure: Array) -> Array:
+        """(n,) Energy per area that sides at pressures (n,) give back as they are let go.
+
+        >>> Closure([(0.0, 0.0), (0.1, 2.0)]).stored(np.array([2.0])).round(12).tolist()
+        [0.1]
+        """
+        if self.unloading is not None:
+            return np.asarray(pressure**2 / (2.0 * self.unloading))
+        lines = PairClosure.of([self], [0.0], [len(pressure)])
+        assert lines is not None
+        return lines.energy(pressure)
+
     @property
     def table(self) -> dict[str, Any]:
         """What a deck says of it."""

@@ -47,7 +47,9 @@ def tangents(normals: Array) -> Array:
 
 def slave_energies(contact: Contact, result: ContactResult) -> Array:
     """Energy that the compliance of the interface stores at every pair, (n,)."""
-    normal = contact.normal_compliance * result.pressure**2
-    tangential = contact.tangential_compliance * np.sum(result.shear**2, axis=1)
-    energies: Array = 0.5 * result.area * (normal + tangential)
+    normal = 0.5 * contact.normal_compliance * result.pressure**2
+    if contact.closure is not None:
+        normal = contact.closure.stored(result.pressure)
+    tangential = 0.5 * contact.tangential_compliance * np.sum(result.shear**2, axis=1)
+    energies: Array = result.area * (normal + tangential)
     return energies
