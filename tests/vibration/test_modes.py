@@ -301,3 +301,20 @@ def test_ties_compliances_and_stuck_pairs_agree_in_space():
 
 
 PARTS = {"lower": [0.0, 0.5], "upper": [0.5, 1.0]}
+
+
+def test_a_joint_that_parts_fails_its_certificate(monkeypatch):
+    """Shapes of the open joint are no modes of the stuck one."""
+    solution = sg.solve(blocks(n=4))
+    apart = sg.natural_modes(solution, 6, joint="open")
+    whole = eigen._all
+
+    def loose(inverse):
+        squares, vectors = whole(inverse)
+        leaders = inverse.shifted.bodies.constraints.leaders
+        vectors[:, 0] = apart.shapes[4].ravel()[leaders]
+        return squares, vectors
+
+    monkeypatch.setattr(eigen, "_all", loose)
+    with pytest.raises(sg.SolveFailed, match=r"parting [0-9.]+e-01"):
+        sg.natural_modes(solution, 1)

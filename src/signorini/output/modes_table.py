@@ -27,13 +27,14 @@ def modes_table(modes: Mapping[str, NaturalModes], about: str) -> str:
     rows += [[str(k + 1), *(f"{own.frequencies[k]:.6g}" for own in modes.values())] for k in range(count)]
     residual = max(float(own.residuals.max()) for own in modes.values())
     products = max(own.orthogonality for own in modes.values())
+    parting = max(own.parting for own in modes.values())
     uncounted = any(own.missed is None for own in modes.values())
     counted = "not counted" if uncounted else "none is missing, by the inertia of K - sigma M"
     return "\n".join(
         [
             f"natural frequencies {about}, cycles per time",
             *align(rows, right=range(len(rows[0]))),
-            f"  residual {residual:.1e}, orthogonality {products:.1e}; {counted}",
+            f"  residual {residual:.1e}, orthogonality {products:.1e}, parting {parting:.1e}; {counted}",
         ]
     )
 

@@ -24,6 +24,7 @@ class NaturalModes(Short):
     residuals : (k,) ``|K v - omega^2 M v|`` in the norm of ``(K + s M)^-1``, of that of ``K v + s M v``: some exact
         omega^2 + s is as near, relatively
     orthogonality : the largest ``|v_i M v_j|``, i other than j
+    parting : how far pairs move on each other that the joint holds rigidly, of the largest displacement of a shape
     missed : modes below the last one that are not among them, by the inertia of ``K - sigma M``; None: not counted
     """
 
@@ -33,6 +34,7 @@ class NaturalModes(Short):
     forces: Array
     residuals: Array
     orthogonality: float
+    parting: float
     missed: int | None
 
     def __len__(self) -> int:

@@ -90,11 +90,11 @@ def _of_joint(ready: ShiftedBodies, joint: str, number: int) -> NaturalModes:
     inverse = JointInverse.of(ready, joint)
     pairs, missed = lowest(inverse, number)
     modes = _measured(inverse, joint, pairs, missed)
-    worst = max(float(modes.residuals.max()), modes.orthogonality)
+    worst = max(float(modes.residuals.max()), modes.orthogonality, modes.parting)
     if not worst <= _MODE_TOL or missed:
         raise SolveFailed(
             f"modes of the {joint} joint are not certified: residual {modes.residuals.max():.1e}, orthogonality "
-            f"{modes.orthogonality:.1e}, {'not counted' if missed is None else missed} missed",
+            f"{modes.orthogonality:.1e}, parting {modes.parting:.1e}, {missed or 'none'} missed",
             status=Outcome.NOT_FOUND,
         )
     return modes
@@ -115,6 +115,8 @@ def _measured(inverse: JointInverse, joint: str, pairs: Pairs, missed: int | Non
     left += inverse.ties.B.T @ inverse.ties.forces(left)
     residuals = np.sqrt(np.abs(np.einsum("ij,ij->j", left, inverse(left))) / (squares + ready.shift))
     products = np.abs(vectors.T @ on_mass - np.eye(len(squares)))
+    held = bodies.rows(joint)
+    parting = np.abs(bodies.B[held[bodies.compliance.ravel()[held] == 0.0]] @ vectors).max(axis=0, initial=0.0)
     u = bodies.constraints.transform @ (vectors * _signs(vectors))
     order = np.argsort(squares, kind="stable")
     return NaturalModes(
@@ -124,6 +126,7 @@ def _measured(inverse: JointInverse, joint: str, pairs: Pairs, missed: int | Non
         forces=_at_nodes(bodies.mass @ u, space.mesh.points.shape)[order],
         residuals=residuals[order],
         orthogonality=float(products.max(initial=0.0)),
+        parting=float((parting / np.abs(vectors).max(axis=0)).max()),
         missed=missed,
     )
 
