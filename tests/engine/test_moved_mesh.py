@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -162,7 +163,30 @@ def test_a_run_on_a_mesh_that_has_moved_goes_on_to_the_last_bit(tmp_path: Path) 
     assert bodies.points[:, 1].min() == pytest.approx(rest.end.state.wear.taken.min(), rel=1e-12)
 
 
-def test_a_mesh_that_cannot_move_is_refused() -> None:
+def turning_block() -> sg.Model:
+    """The block, its sliding finite, held by contact alone."""
+    model = rubbed_block(1, sliding="finite")
+    loads = [sg.Load("top", force=(0.0, -1.0), name="press")]
+    return replace(model, supports=[], loads=loads, steps=[sg.Step(name="press", scale={"press": 1.0})])
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: sg.Wear(1e-8, move_mesh=0.0), "move_mesh: is 0.0; expected a number > 0"),
+        (
+            lambda: rubbed_block(1).contacts[0].check_meshed(linked=True),
+            "wear.move_mesh: is given, but bolts or cyclic symmetries link parts of the mesh; "
+            "expected a mesh that stays",
+        ),
+        (
+            lambda: sg.solve(turning_block()),
+            "contact[0].wear.move_mesh: is given, but bodies may turn by any angle; expected a mesh that stays, or "
+            "supports against turning",
+        ),
+    ],
+)
+def test_a_mesh_that_cannot_move_is_refused(make: Callable[[], object], words: str) -> None:
     with pytest.raises(sg.InputError) as caught:
-        sg.Wear(1e-8, move_mesh=0.0)
-    assert str(caught.value) == "move_mesh: is 0.0; expected a number > 0"
+        make()
+    assert str(caught.value) == words

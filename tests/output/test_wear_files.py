@@ -61,6 +61,16 @@ def test_wear_is_drawn(run, capsys):
     capsys.readouterr()
 
 
+def test_the_picture_has_volumes_beside_the_ways_that_wore_them():
+    """Not beside those of the cycle behind, of which nothing is worn yet."""
+    solution = sg.solve(rubbed_cylinder(to_and_fro(2), wear=sg.Wear(1.9e-6, mortar=2.9e-6), spacing=0.05))
+    worn, most = draw_wear(PictureData(solution)).axes[3].lines[:2]
+    assert worn.get_xdata().tolist() == most.get_xdata().tolist() == [0, 1, 2]
+    shares = worn.get_ydata()[1:] / most.get_ydata()[1:]
+    assert (shares > 0.8).all()
+    assert (shares <= 1.0).all()
+
+
 def test_the_picture_counts_the_cycles_of_steps_that_repeat(run):
     """The press before them is none: what it has worn is where no cycle is behind."""
     _, solution, _ = run

@@ -69,14 +69,17 @@ class _Course:
 def _course(history: History, i: int) -> _Course:
     last: dict[int, ContactResult] = {}
     repeats = any(step.cycles for step in history.steps)
-    behind, skipped = 0, 0
+    first = next((step.instants[0].contacts[i].wear for step in history.steps), None)
+    behind, skipped, begin = 0, 0, 0 if first is None else first.cycles
     for step in history.steps:
-        for instant in step.instants:
+        # between two of them pairs have slid on, and nothing of that is worn yet; blocks of cycles end without one
+        for instant in [instant for instant in step.instants if instant.what == "wear"] or step.instants:
             contact = instant.contacts[i]
             if contact.wear is not None:
                 behind = contact.wear.cycles - skipped
                 if repeats and not step.cycles:
-                    behind, skipped = max(last, default=behind), skipped + behind - max(last, default=behind)
+                    known = max(last, default=begin)
+                    behind, skipped = known, skipped + behind - known
                 last[behind] = contact
     cycles = sorted(last)
     contacts = [last[number] for number in cycles]
