@@ -28,12 +28,12 @@ def obeys(contact: sg.Contact) -> None:
 
 @pytest.mark.parametrize("kind", ["plane strain", "plane stress", "axisymmetric"])
 def test_a_way_to_a_load_and_back_is_followed_from_kink_to_kink(kind):
-    solution = sg.solve(block_on_a_bed(SLANTED, kind=kind, steps=[PRESS, LET_GO], cells=5))
+    solution = sg.solve(block_on_a_bed(SLANTED, kind=kind, steps=[PRESS, LET_GO], cells=4))
     there, back = solution.steps
     obeys(there.contacts[0])
     assert not back.contacts[0].pressure.any()
     kinks = [[e for e in step.events if e.what in ("stiffens", "softens")] for step in (there, back)]
-    assert sum(len(event.nodes) for event in kinks[0]) >= 11
+    assert sum(len(event.nodes) for event in kinks[0]) >= 9
     # without friction the way back is the way there
     mirrored = [(2.0 - event.load_factor, sorted(event.nodes)) for event in reversed(kinks[1])]
     for event, (factor, nodes) in zip(kinks[0], mirrored, strict=True):
@@ -197,6 +197,7 @@ def test_a_gasket_springs_back_along_its_own_line_and_keeps_the_rest():
     assert kinks == [("softens", round(3.0 + 3.0 / 7.0, 9))]
 
 
+@pytest.mark.slow
 def test_gaskets_with_friction_are_followed_exactly_where_nothing_is_asked_and_answered_alike_elsewhere():
     ways = [{"p": 0.6, "q": 0.0}, {"p": 0.1}, {"p": 0.8, "q": 1.0}]
     model = block_on_a_bed(SLANTED, KEPT, friction=0.2, cells=5, steps=[sg.Step(scale=way) for way in ways])

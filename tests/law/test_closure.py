@@ -8,7 +8,9 @@ import pytest
 from numpy.testing import assert_allclose
 
 import signorini as sg
-from signorini.gallery.closures import GASKET
+from signorini.cli.main import main
+from signorini.deck.write import write_deck
+from signorini.gallery.closures import GASKET, block_on_a_bed
 from signorini.law.closure import PairClosure
 
 
@@ -80,3 +82,14 @@ def test_what_springs_back_is_no_softer_than_its_lines():
         sg.Closure(GASKET.points, unloading=5000.0)
     assert str(caught.value) == "unloading: is 5000, less than 11000, the steepest line of the points; expected more"
     assert sg.Closure(GASKET.points, unloading=11000.0).words.endswith("4 lines, springs back by 11000")
+
+
+def test_check_says_what_closes_and_which_way_a_gasket_is_followed(tmp_path, capsys):
+    for unloading, way in ((None, "exact path where there is friction, otherwise 1 increment"), (2e4, "exact path ")):
+        closure = sg.Closure(GASKET.points, unloading=unloading)
+        write_deck(block_on_a_bed(1.0, closure, steps=[sg.Step(name="press")]), tmp_path / "deck.toml")
+        assert main(["check", str(tmp_path / "deck.toml")]) == 0
+        said = capsys.readouterr().out
+        assert "friction 0, closes to 0.042 under 30, 4 lines" in said
+        assert ("springs back by 20000" in said) == (unloading is not None)
+        assert f"press  {way}" in said

@@ -184,7 +184,7 @@ def _steps(model: Model) -> Rows:
             (
                 str(number),
                 step.name,
-                _stepping(step, model.dimension),
+                _stepping(step, model),
                 f"ends at {ends or 'no load'}",
             )
         )
@@ -204,20 +204,21 @@ def _fatigue(model: Model) -> Rows:
     ]
 
 
-def _stepping(step: Step, dimension: int) -> str:
+def _stepping(step: Step, model: Model) -> str:
     count = step.segments * step.repeat
     cycles = f", {step.repeat} cycles" if step.repeat > 1 else ""
-    return _way(step, dimension) + (f" in each of {count} segments{cycles}" if count > 1 else "")
+    return _way(step, model) + (f" in each of {count} segments{cycles}" if count > 1 else "")
 
 
-def _way(step: Step, dimension: int) -> str:
+def _way(step: Step, model: Model) -> str:
     if step.increments == "auto":
         return f"increments until forces change less than {step.tolerance or 1e-3:g}"
     if step.increments is not None:
         return "1 increment" if step.increments == 1 else f"{step.increments} increments"
     if step.path is None:
-        way = "exact path" if dimension == 2 else "increments to events"
-        return f"{way} where there is friction, otherwise 1 increment"
+        way = "exact path" if model.dimension == 2 else "increments to events"
+        keeps = any(contact.closure is not None and contact.closure.unloading is not None for contact in model.contacts)
+        return way if keeps else f"{way} where there is friction, otherwise 1 increment"
     return "exact path" if step.path == "exact" else "1 increment"
 
 
