@@ -47,8 +47,8 @@ class Step:
         the norm of areas and of plastic work; None: 1e-2. Where contacts wear, of ``block = "auto"``; None: 1e-2
     path : "increments", or "exact": from event to event (a pair closes, opens, slips, sticks), without any step size;
         in space for contacts with ``facets``. None chooses: "increments" where their number is given or nothing rubs
-        and no closure is kept (one is exact then), otherwise "exact", in space increments as with "auto", some tens at most, and the notes
-        say what they left
+        and no closure is kept (one is exact then), otherwise "exact", in space increments as with "auto", some tens at
+        most, and the notes say what they left
     block : where contacts wear, cycles that one of them stands for, implicitly: what wears in a block is what the
         last of its cycles wears on the worn surfaces, times their number; "auto": as many as keep the error of a
         block below ``tolerance`` of what it wears, or one by one where no block pays. None wears after every cycle
