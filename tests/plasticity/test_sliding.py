@@ -9,49 +9,16 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.gallery.rolled_beds import rolled_bed
 
-E, NU, HALF_WIDTH = 1000.0, 0.3, 1.0
-MODULUS = E / (1.0 - NU**2)
-
-
-def rolled(ratio: float, plastic: sg.Plastic | None, *, ways: tuple[float, ...]) -> sg.Model:
-    """A rigid wheel without friction on a bed that is moved under it, cells of a quarter of the half-width.
-
-    Parameters
-    ----------
-    ratio : largest pressure of the elastic contact
-    plastic : how the bed yields
-    ways : places that the wheel rolls to, one after the other, over the half-width; it is pressed on at the first
-    """
-    reach = max(map(abs, ways)) + 1.5
-    far = np.array([0.4, 1.0, 2.0, 4.0, 8.0])
-    fine = np.arange(-reach, reach + 0.1, 0.25)
-    x = np.concatenate([fine[0] - far[::-1], fine, fine[-1] + far])
-    bed = sg.rectangle(x=x, y=np.concatenate([-1.5 - far[::-1], np.linspace(-1.5, 0.0, 7)]))
-    held = np.unique(np.concatenate([bed.facets(side)[0].ravel() for side in ("bottom", "left", "right")]))
-    radius, force = 0.5 * HALF_WIDTH * MODULUS / ratio, 0.5 * np.pi * HALF_WIDTH * ratio
-    first, *then = ways
-    return sg.Model(
-        mesh=replace(bed, nodes={**bed.nodes, "held": held}),
-        kind="plane strain",
-        bodies=[sg.Body(next(iter(bed.bodies)), sg.Elastic(E=E, nu=NU, plastic=plastic), "mean dilatation")],
-        supports=[sg.Support("held", u=(-1.0, 0.0), name="drag")],
-        obstacles=[sg.Rigid("wheel", sg.Circle((0.0, radius), radius), u=(0.0, None), force=(None, -force))],
-        contacts=[sg.Contact("top", "wheel", sliding="finite", name="c")],
-        steps=[
-            sg.Step(scale={"wheel": 0.0, "drag": first}, increments=1),
-            sg.Step(scale={"wheel": 1.0, "drag": first}, increments=2),
-            *(sg.Step(scale={"wheel": 1.0, "drag": way}, increments=1) for way in then),
-        ],
-    )
+E, NU = 1000.0, 0.3
 
 
 @pytest.mark.slow
 def test_a_wheel_leaves_a_track_that_the_next_pass_adds_less_to() -> None:
     """Above first yield and below shakedown; every stride is certified, forces balance, energies close."""
-    model = rolled(3.7, sg.Plastic(float(np.sqrt(3.0))), ways=(-0.5, 0.5, -0.5))
-    steps = sg.solve(model).steps
-    force = 0.5 * np.pi * HALF_WIDTH * 3.7
+    steps = sg.solve(rolled_bed(3.7, n=4, run=0.5, strokes=2)).steps
+    force = 0.5 * np.pi * 3.7
     pressed, there, back = (step.plastic.dissipation for step in steps[1:] if step.plastic is not None)
     assert there > 0.1 * pressed > 0.0
     assert back < 0.3 * there
@@ -63,8 +30,11 @@ def test_a_wheel_leaves_a_track_that_the_next_pass_adds_less_to() -> None:
 
 
 def test_what_does_not_yield_slides_as_elastic_bodies_do() -> None:
-    ways = (0.0, 0.5)
-    elastic, strong = (sg.solve(rolled(1.0, law, ways=ways)).last for law in (None, sg.Plastic(100.0)))
+    model, ends = rolled_bed(1.0, n=4, run=0.25, strokes=1), []
+    for law in (None, sg.Plastic(100.0)):
+        bodies = [sg.Body(body.name, sg.Elastic(E=E, nu=NU, plastic=law), "mean dilatation") for body in model.bodies]
+        ends.append(sg.solve(replace(model, bodies=bodies)).last)
+    elastic, strong = ends
     assert strong.yielding.largest == 0.0
     np.testing.assert_allclose(strong.displacement, elastic.displacement, rtol=0.0, atol=1e-9)
     assert strong.contacts[0].pressure == pytest.approx(elastic.contacts[0].pressure, abs=1e-6)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""B15: meshed bodies that roll without slip, and that a bed tilts."""
+"""B15: meshed bodies that roll without slip, and that a bed tilts; B13: a wheel on a bed that yields."""
 
 from __future__ import annotations
 
@@ -9,12 +9,17 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.api import solve
+from signorini.gallery.rolled_beds import rolled_bed
 from signorini.gallery.rolling import block_on_slope, pushed_disc, rolling_discs
+from signorini.gallery.yielding import SHEAR_STRENGTH
+from signorini.reference.plasticity import rolling_shakedown_limit
 from signorini.solution.results import ObstacleResult
 from signorini.verify.check import Check, checks_of
+from signorini.verify.yielding_points import yielding_points
 
 _RADIUS = 1.5  # of the driven disc over that of the driver
 _TILT = 0.2  # radians
+_LOW_PRESSURE = 0.9  # of the shakedown limit: there flow dies out, but for what pairs that come and go stir up
 
 
 def rolling_without_slip() -> Iterator[Check]:
@@ -50,6 +55,33 @@ def tilted_block() -> Iterator[Check]:
         ("slip", np.abs(contact.slip).max(), 0.0, 1e-9),
         source="equilibrium",
     )
+
+
+def rolling_shakedown() -> Iterator[Check]:
+    """A rigid wheel rolls to and fro over a bed: what strokes add above its shakedown limit tells the limit."""
+    limit, near, far = rolling_shakedown_limit(SHEAR_STRENGTH), 1.05, 1.1
+    adds = {part: _added(part * limit) for part in (_LOW_PRESSURE, near, far)}
+    none = near - (far - near) * adds[near] / (adds[far] - adds[near])
+    yield from checks_of(
+        "B13 a wheel that rolls to and fro by contact, without friction, 3 cells in a half-width",
+        ("p_0 / k at which strokes add nothing, from what they add above it", none * limit, limit, 0.03),
+        (
+            f"what strokes add at {_LOW_PRESSURE * limit:g} k, over what they add at 4.2 k",
+            adds[_LOW_PRESSURE] / adds[near],
+            0.0,
+            0.15,
+        ),
+        source="Johnson (1985), section 9.2; Melan (1938)",
+    )
+
+
+def _added(p_0: float) -> float:
+    """Plastic work that the last stroke there and back add in the middle of the way, to where no end reaches."""
+    run, strokes = 3.0, 4
+    history = solve(rolled_bed(p_0, n=3, run=run, strokes=strokes))
+    before, after = (yielding_points(history, step) for step in (-3, -1))
+    middle = np.abs(after.places[:, 0]) < run - 1.5
+    return float((after.weights * (after.equivalent - before.equivalent))[middle].sum())
 
 
 def _angle(hub: ObstacleResult) -> float:

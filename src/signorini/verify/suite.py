@@ -121,6 +121,7 @@ SLOW: tuple[Case, ...] = (
     indentation.ball_in_a_block,
     indentation.cone_in_a_block,
     indentation.rolling,
+    rolling.rolling_shakedown,
     wear.worn_cylinder,
     sliding.dissimilar_rollers,
     wear.fretting_over_elements,
