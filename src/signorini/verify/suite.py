@@ -125,6 +125,7 @@ SLOW: tuple[Case, ...] = (
     wear.worn_cylinder,
     sliding.dissimilar_rollers,
     wear.fretting_over_elements,
+    wear.worn_track,
 )
 
 

@@ -11,7 +11,9 @@ import numpy as np
 from signorini.engine.solve import solve
 from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, equal_half_planes
 from signorini.gallery.half_planes import FRICTION as EQUAL_FRICTION
+from signorini.gallery.sliding import driven_wheel, half_width
 from signorini.gallery.wearing import FRICTION, RADIUS, WEAR, fretting, rubbed_cylinder, to_and_fro
+from signorini.model.conditions import Support
 from signorini.model.step import Step
 from signorini.model.wear import Wear
 from signorini.verify.check import Check, checks_of
@@ -81,6 +83,35 @@ def fretting_over_elements() -> Iterator[Check]:
         ("worn volume / k int p ds", float((wear.volume + wear.loose).sum()) / (coefficients * rubbed), 1.0, 1e-12),
         ("energy defect / work", step.energy_defect / step.work, 0.0, 1e-12, "first law"),
         source="Archard (1953)",
+    )
+
+
+def worn_track() -> Iterator[Check]:
+    """A rigid wheel that turns by a fifth more than it rolls: its bed is slid over by a fifth of the contact."""
+    creepage, coefficient, modulus = 0.2, 1e-6, 200.0 / (1.0 - 0.499**2)
+    model = driven_wheel(ratio=0.0, ways=(3.0, 3.0), across=4)
+    (wheel,), (tread,) = model.obstacles, model.contacts
+    a = half_width(10.0, 100.0, modulus)
+    turns = replace(wheel, u=(0.0, 0.0), force=(None, None), rotation=-(1.0 + creepage) * 6.0 * a / 100.0)
+    supports = [
+        Support("bottom", u=(-6.0 * a, None), name="move"),
+        Support("bottom", u=(None, 0.03 * a), name="lift"),
+    ]
+    steps = [
+        Step(name="press", scale={"lift": 1.0, "move": 0.0, "wheel": 0.0}),
+        Step(name="roll", scale={"lift": 1.0, "move": 1.0, "wheel": 1.0}),
+    ]
+    worn = replace(tread, wear=Wear(coefficient))
+    step = solve(replace(model, obstacles=[turns], contacts=[worn], supports=supports, steps=steps)).steps[-1]
+    wear = step.contacts[0].wear
+    assert wear is not None
+    middle = wear.depths[np.abs(wear.points[:, 0] - 3.0 * a) < 1.1 * a]
+    force = float(np.mean([np.linalg.norm(instant.contacts[0].normal_force) for instant in step.instants]))
+    yield from checks_of(
+        "worn track of a wheel with creepage",
+        ("shallowest in the middle / k P xi", middle.min() / (coefficient * force * creepage), 1.0, 0.01),
+        ("deepest", middle.max() / (coefficient * force * creepage), 1.0, 0.01),
+        source="int p ds = xi P",
     )
 
 
