@@ -30,6 +30,7 @@ from benchmarks.plastic_models import in_words, make
         (9, "round moving space"),
         (2, "incompatible softened plane-strain"),
         (4, "overlap restart turned"),
+        (801, "hexahedron20"),
     ],
 )
 def test_answers_obey_the_laws(seed, kinds):

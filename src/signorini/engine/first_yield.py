@@ -142,7 +142,8 @@ def _up_to_yield(
             break
         cut = part.cut(factor, "event")
         begun = elastically(cut, factor)
-        excess = fullest(part.prepared, begun.after) - 1.0
+        states = [begun.after, *(shot.state for shot in begun.snapshots[:-1] if shot.whole)]
+        excess = max(fullest(part.prepared, state) for state in states) - 1.0  # a point may be fuller on the way
         if excess <= _YIELD_TOL:
             best = cut, begun
             if excess >= -_NEAR_YIELD:
