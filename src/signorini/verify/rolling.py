@@ -19,7 +19,7 @@ from signorini.verify.yielding_points import yielding_points
 
 _RADIUS = 1.5  # of the driven disc over that of the driver
 _TILT = 0.2  # radians
-_LOW_PRESSURE = 0.9  # of the shakedown limit: there flow dies out, but for what pairs that come and go stir up
+_LOW_PRESSURE = 0.9  # of the shakedown limit: there strokes add little
 
 
 def rolling_without_slip() -> Iterator[Check]:
