@@ -216,7 +216,7 @@ class PairClosure:
     Examples
     --------
     >>> pairs = PairClosure.of([Closure([(0.0, 0.0), (0.1, 2.0), (0.15, 10.0)]), None], [0.0, 0.5], [1, 1])
-    >>> pairs.at(np.array([6.0, 6.0])).tolist(), pairs.energy(np.array([6.0, 6.0])).tolist()
+    >>> pairs.at(np.array([6.0, 6.0])).tolist(), pairs.energy(np.array([6.0, 6.0])).round(12).tolist()
     ([0.125, 3.0], [0.2, 9.0])
     """
 
