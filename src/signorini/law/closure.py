@@ -272,7 +272,7 @@ class PairClosure:
         --------
         >>> pairs = PairClosure.of([Closure([(0.0, 0.0), (0.1, 2.0)], unloading=40.0)], [0.0], [1])
         >>> past = pairs.borne(None, np.array([2.0]), np.ones(1))
-        >>> pairs.after(past).at(np.array([1.0])).tolist(), past.taken.round(12).tolist()
+        >>> pairs.after(past).at(np.array([1.0])).round(12).tolist(), past.taken.round(12).tolist()
         ([0.075], [0.05])
         """
         if self.springs is None:
