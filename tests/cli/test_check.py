@@ -215,3 +215,28 @@ def test_a_terminated_run_keeps_what_is_finished(tmp_path: Path, monkeypatch: py
     assert main(["run", str(DECK), "-o", str(tmp_path), "--quiet"]) == 130
     assert [step.finished for step in sg.load(tmp_path).steps] == [True]
     assert signal.getsignal(signal.SIGTERM) == before
+
+
+def test_bodies_that_yield_make_no_linear_problem(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = """
+[mesh]
+generator = "rectangle"
+[material.steel]
+E = 1000.0
+nu = 0.3
+{}
+[[body]]
+name = "block"
+material = "steel"
+[[support]]
+on = "bottom"
+u = [0, 0]
+[[load]]
+on = "top"
+pressure = 1.2
+"""
+    for law, words in (("", "there is no contact: this is"), ("plastic = { yield_stress = 1.0 }", "is no contact\n")):
+        path = tmp_path / "deck.toml"
+        path.write_text(deck.format(law))
+        assert main(["check", str(path)]) == 0
+        assert words in capsys.readouterr().out

@@ -227,7 +227,8 @@ def _notes(deck: Deck) -> list[str]:
     notes = [*deck.notes]
     notes += [f"material '{name}' is not used" for name in deck.unused_materials]
     if not model.contacts:
-        notes.append("there is no contact: this is a linear problem")
+        yields = any(body.material.yields for body in model.bodies)
+        notes.append("there is no contact" if yields else "there is no contact: this is a linear problem")
     if deck.modes is not None:
         about = "about the end of the steps" if deck.modes.preload else "of the bodies as they are drawn"
         notes.append(f"{deck.modes.number} natural modes {about} are asked for, which 'signorini modes' computes")
