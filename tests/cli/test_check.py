@@ -235,8 +235,14 @@ u = [0, 0]
 on = "top"
 pressure = 1.2
 """
-    for law, words in (("", "there is no contact: this is"), ("plastic = { yield_stress = 1.0 }", "is no contact\n")):
+    flowing = "elastic to first yield, then increments until forces change less than 0.01"
+    for law, words, way in (
+        ("", "there is no contact: this is", "exact path where there is friction, otherwise 1 increment"),
+        ("plastic = { yield_stress = 1.0 }", "is no contact\n", flowing),
+    ):
         path = tmp_path / "deck.toml"
         path.write_text(deck.format(law))
         assert main(["check", str(path)]) == 0
-        assert words in capsys.readouterr().out
+        said = capsys.readouterr().out
+        assert words in said
+        assert way in said

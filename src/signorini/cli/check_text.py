@@ -11,7 +11,9 @@ from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_no
 from signorini.deck import Deck
 from signorini.engine.duplicate_check import same_loads
 from signorini.engine.examine import Examined
+from signorini.engine.plastic_steps import TOLERANCE as TOLERANCE_OF_FLOW
 from signorini.engine.validity_notes import finer_notes, overlap_notes
+from signorini.engine.ways import TOLERANCE_OF_FORCES
 from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motions
 from signorini.law.friction import FrictionLaw
@@ -211,8 +213,10 @@ def _stepping(step: Step, model: Model) -> str:
 
 
 def _way(step: Step, model: Model) -> str:
-    if step.increments == "auto":
-        return f"increments until forces change less than {step.tolerance or 1e-3:g}"
+    yields = model.yields
+    if step.increments == "auto" or (yields and step.increments is None and step.path is None):
+        tolerance = step.tolerance or (TOLERANCE_OF_FLOW if yields else TOLERANCE_OF_FORCES)
+        return f"{'elastic to first yield, then ' * yields}increments until forces change less than {tolerance:g}"
     if step.increments is not None:
         return "1 increment" if step.increments == 1 else f"{step.increments} increments"
     if step.path is None:
