@@ -120,6 +120,7 @@ def test_folders_say_what_they_lack(tmp_path: Path, folder: Path, capsys: pytest
     assert "have no contact to draw" in said(tmp_path / "out", "history")
 
 
+@pytest.mark.slow
 def test_the_film_of_a_path(tmp_path: Path) -> None:
     from PIL import Image
 

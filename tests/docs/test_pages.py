@@ -32,7 +32,12 @@ def _beside_the_examples(tmp_path, monkeypatch):
     mpl.use("agg")
 
 
-@pytest.mark.parametrize("place", BLOCKS)
+LONG = ("docs/fatigue.md:", "docs/modes.md:")  # pages whose first block takes seconds
+
+
+@pytest.mark.parametrize(
+    "place", [pytest.param(place, marks=[pytest.mark.slow] * place.startswith(LONG)) for place in BLOCKS]
+)
 def test_python_code_runs(place, tmp_path):
     names = dict(GIVEN)
     exec(compile(BLOCKS[place], place, "exec"), names)

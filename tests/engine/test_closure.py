@@ -44,6 +44,7 @@ def test_a_way_to_a_load_and_back_is_followed_from_kink_to_kink(kind):
     assert back.interface_energy == pytest.approx(0.0, abs=1e-16)
 
 
+@pytest.mark.slow
 def test_friction_and_kinks_on_an_exact_path_and_in_increments():
     ways = [{"p": 1.0}, {"q": 1.0}, {"q": -1.0}]
     exact = sg.solve(block_on_a_bed(SLANTED, friction=0.15, steps=[sg.Step(scale=way) for way in ways]))
@@ -100,6 +101,7 @@ def cube(facets, steps):
     )
 
 
+@pytest.mark.slow
 def test_in_space_paths_on_facets_are_exact_and_increments_come_near():
     exact = sg.solve(cube(8, [sg.Step(scale={"p": 1.0}, path="exact"), sg.Step(scale={"q": 1.0}, path="exact")]))
     fine = sg.solve(cube(8, [sg.Step(scale={"p": 1.0}, increments=40), sg.Step(scale={"q": 1.0}, increments=40)]))
@@ -128,6 +130,7 @@ def test_an_overlap_presses_over_kinks_before_the_loads():
     assert abs(step.energy_defect) < 1e-14
 
 
+@pytest.mark.slow
 def test_a_history_goes_on_from_a_file_and_not_with_another_closure(tmp_path):
     steps = [PRESS, replace(PRESS, scale={"q": 1.0}), replace(PRESS, scale={"p": 0.6})]
     model = block_on_a_bed(SLANTED, friction=0.3, steps=steps)
@@ -215,6 +218,7 @@ def test_gaskets_with_friction_are_followed_exactly_where_nothing_is_asked_and_a
     assert sg.solve(alone).steps[0].path == "exact"  # the way there counts, without friction too
 
 
+@pytest.mark.slow
 def test_a_gasket_in_space_and_a_state_of_it_in_a_file(tmp_path):
     steps = [sg.Step(scale={"p": part, "q": 0.5 * part}, path="exact") for part in (0.5, 0.1, 0.7)]
     model = cube(4, steps)

@@ -82,6 +82,7 @@ def cylinder(turn, *, above=True, **step):
     )
 
 
+@pytest.mark.slow
 def test_a_cylinder_that_no_node_meets_at_its_pole_has_an_exact_path():
     """It begins where the lowest nodes touch, increments converge to it, and a node at the pole changes little."""
     half_a_cell = 0.5 * 0.25 / 8.0

@@ -91,6 +91,7 @@ def test_pressures_are_those_of_the_bodies_that_are_left() -> None:
     assert step.contacts[0].pressure == pytest.approx(pressure, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_little_wear_is_the_same_on_a_mesh_that_stays() -> None:
     """A cylinder and a flat, worn by a fiftieth of a cell: depths differ by less than that."""
     stays, moves = (
@@ -141,6 +142,7 @@ def test_a_block_in_space_and_a_ring_lose_what_they_rub() -> None:
             assert abs(last.energy_defect) < 1e-12 * abs(last.work)
 
 
+@pytest.mark.slow
 def test_a_run_on_a_mesh_that_has_moved_goes_on_to_the_last_bit(tmp_path: Path) -> None:
     """From a folder, whose files show the mesh as it is."""
     model = rubbed_block(4, move_mesh=0.05, block=1)

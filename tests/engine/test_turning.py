@@ -140,6 +140,7 @@ def test_a_hub_in_space_bears_what_contact_and_loads_leave() -> None:
     assert moment == pytest.approx([0.0] * 3, abs=2e-3)  # of what bodies give way by
 
 
+@pytest.mark.slow
 def test_a_roll_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
     """What its frame is read off is part of the state."""
     model = roller(angle=-0.01)
@@ -152,6 +153,7 @@ def test_a_roll_that_is_cut_goes_on_to_the_last_bit(tmp_path: Path) -> None:
     assert np.array_equal(whole.steps[-1].displacement, second.steps[-1].displacement)
 
 
+@pytest.mark.slow
 def test_a_block_slides_off_a_bed_that_is_tilted() -> None:
     """Where the slope is the coefficient of friction, to a stride and its pairs; nothing is followed beyond."""
     with pytest.raises(sg.SolveFailed, match=r"body 'block' can .* away along a rigid motion") as caught:

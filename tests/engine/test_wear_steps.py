@@ -78,6 +78,7 @@ def test_work_of_the_loads_is_stored_dissipated_or_gone_with_what_is_worn():
     assert 0.0 < rub.released < 0.1 * rub.work
 
 
+@pytest.mark.slow
 def test_a_history_that_is_cut_goes_on_to_the_last_bit(tmp_path):
     model = rubbed_cylinder([*to_and_fro(2), replace(to_and_fro(3)[1], name="on")], wear=FAST, spacing=COARSE)
     whole = sg.solve(model)
@@ -100,6 +101,7 @@ def times_as_fast(factor):
     return sg.Wear(1.9e-8 * factor, mortar=2.9e-8 * factor)
 
 
+@pytest.mark.slow
 def test_cycles_that_nobody_looks_at_are_those_that_somebody_does():
     seen, unseen = (sg.solve(rubbed_cylinder(to_and_fro(8, at=at), wear=FAST, spacing=COARSE)) for at in ("events", ()))
     assert [cycle.number for cycle in unseen.last.cycles] == [1, 2, 5, 8]
@@ -144,6 +146,7 @@ def test_implicit_blocks_are_stable_where_explicit_ones_oscillate():
     assert most > 2.0 * least
 
 
+@pytest.mark.slow
 def test_a_block_keeps_the_books_of_all_its_cycles():
     solution = sg.solve(rubbed_cylinder(to_and_fro(30, block=10), wear=FAST, spacing=COARSE))
     step, rubbed = solution.last, sum(step.dissipation for step in solution.steps) / FRICTION
@@ -192,6 +195,7 @@ def test_where_no_block_is_found_cycles_go_by_themselves():
     assert 30 < cost < 3 * 30
 
 
+@pytest.mark.slow
 def test_automatic_blocks_cost_no_more_than_every_cycle():
     _, cost = partial_slip(30, share=0.7, wear=10.0, block="auto")
     assert cost <= 1.1 * 30 + 20

@@ -118,6 +118,7 @@ def test_decks_that_are_written_ask_the_same(folder, capsys):
     assert sg.read(target).fatigue == sg.read(folder.parent / "bar.toml").fatigue
 
 
+@pytest.mark.slow
 def test_pictures(folder, capsys):
     assert main(["plot", str(folder), "--what", "fatigue"]) == 0
     assert (folder / "fatigue.png").stat().st_size > 20000

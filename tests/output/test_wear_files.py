@@ -61,6 +61,7 @@ def test_wear_is_drawn(run, capsys):
     capsys.readouterr()
 
 
+@pytest.mark.slow
 def test_the_picture_has_volumes_beside_the_ways_that_wore_them():
     """Not beside those of the cycle behind, of which nothing is worn yet."""
     solution = sg.solve(rubbed_cylinder(to_and_fro(2), wear=sg.Wear(1.9e-6, mortar=2.9e-6), spacing=0.05))

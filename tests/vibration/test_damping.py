@@ -36,6 +36,7 @@ def test_loops_enclose_what_friction_takes():
     assert loop.coordinate[: half + 1] == pytest.approx(-loop.coordinate[half:], rel=1e-9, abs=1e-9 * loop.half_range)
 
 
+@pytest.mark.slow
 def test_a_joint_that_slides_as_a_whole_ends_the_table():
     model, exact = bar_in_a_bed(cells=10)
     found = sg.joint_damping(sg.solve(model), [exact.amplitude(0.5), exact.amplitude(1.5)], cycles=1)
@@ -43,6 +44,7 @@ def test_a_joint_that_slides_as_a_whole_ends_the_table():
     assert "loop 2" in found.message
 
 
+@pytest.mark.slow
 def test_a_press_fit_shakes_down_after_a_cycle():
     """What slips in the first cycle alone is no damping: the second one tells."""
     rings = {"hub": [1.0, 1.5, 2.0], "rim": [2.0, 2.5, 3.0]}
