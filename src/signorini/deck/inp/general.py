@@ -35,13 +35,11 @@ class FacingPair:
     ----------
     slave, master : the one of the larger faces comes first, on which pressures do not oscillate
     law : of their contact, None for contact without friction
-    card : the ``*CONTACT``
     """
 
     slave: DeckSurface
     master: DeckSurface
     law: Interaction | None
-    card: Card
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,11 +61,14 @@ class _Outside:
     part: IntArray
 
 
-def find_facing(cards: Sequence[Card], known: Known, taken: Sequence[tuple[IntArray, IntArray]]) -> list[FacingPair]:
-    """Pairs of a deck with ``*CONTACT``, none without; parts are what has no node in common.
+def find_facing(
+    opening: Card, cards: Sequence[Card], known: Known, taken: Sequence[tuple[IntArray, IntArray]]
+) -> list[FacingPair]:
+    """Pairs of a deck with ``*CONTACT``; parts are what has no node in common.
 
     Parameters
     ----------
+    opening : the ``*CONTACT``
     cards : outside the steps
     known : surfaces and laws of contact
     taken : keys of the faces of both sides of every contact pair and tie, which stay as they are
@@ -77,9 +78,6 @@ def find_facing(cards: Sequence[Card], known: Known, taken: Sequence[tuple[IntAr
     DeckError
         If nothing lies opposite anything else.
     """
-    opening = next(of_keyword(cards, "CONTACT"), None)
-    if opening is None:
-        return []
     opening.refuse_unknown((), ("OP",))
     included, excluded = _included(cards, known), _sides(cards, "CONTACT EXCLUSIONS", known)
     outside = _outside(known)
@@ -90,9 +88,9 @@ def find_facing(cards: Sequence[Card], known: Known, taken: Sequence[tuple[IntAr
     first, second, a, b = first[wanted], second[wanted], a[wanted], b[wanted]
     if not len(first):
         raise opening.error("finds no faces of two parts that lie opposite each other; expected some, or *CONTACT PAIR")
-    law, laws = np.full(len(first), -1), list(known.interactions.values())
+    law, laws = np.full(len(first), -1), list(known.interactions)
     for sides, name in _assigned(cards, known):
-        law[_between(a, b, [sides])] = laws.index(known.interactions[name])
+        law[_between(a, b, [sides])] = laws.index(name)
     found = []
     for p, q, k in np.unique(np.column_stack([outside.part[first], outside.part[second], law]), axis=0).tolist():
         own = (outside.part[first] == p) & (outside.part[second] == q) & (law == k)
@@ -101,7 +99,7 @@ def find_facing(cards: Sequence[Card], known: Known, taken: Sequence[tuple[IntAr
         names = [_name(outside.keys[side], known) for side in faces]
         slave = _surface(outside.keys[faces[0]], f"{names[0]} facing {names[1]}", known, opening)
         master = _surface(outside.keys[faces[1]], f"{names[1]} facing {names[0]}", known, opening)
-        found.append(FacingPair(slave=slave, master=master, law=laws[k] if k >= 0 else None, card=opening))
+        found.append(FacingPair(slave=slave, master=master, law=known.interactions[laws[k]] if k >= 0 else None))
     return found
 
 

@@ -65,7 +65,8 @@ def make_contacts(cards: Sequence[Card], known: Known, *, large: bool) -> list[P
 
 def _general(cards: Sequence[Card], known: Known, others: Sequence[Pair], *, large: bool) -> Iterator[Pair]:
     """Pairs of general contact beside the others; overlaps are removed, as in Abaqus, unless the sides slide far."""
-    if not any(of_keyword(cards, "CONTACT")):
+    opening = next(of_keyword(cards, "CONTACT"), None)
+    if opening is None:
         return
     from signorini.deck.inp.general import find_facing
 
@@ -77,11 +78,11 @@ def _general(cards: Sequence[Card], known: Known, others: Sequence[Pair], *, lar
         for pair in others
     ]
     found = list(others)
-    for facing in find_facing(cards, known, taken):
-        law = facing.law or Interaction(card=facing.card)
+    for facing in find_facing(opening, cards, known, taken):
+        law = facing.law or Interaction(card=opening)
         follows = large and law.closure is None
         given: dict[str, Any] = {} if law.tied else {"sliding": "finite"} if follows else {"adjust": 0.0}
-        found.append(_pair(facing.card, facing.slave, facing.master, found, law, **_compliances(law), **given))
+        found.append(_pair(opening, facing.slave, facing.master, found, law, **_compliances(law), **given))
         yield found[-1]
 
 
