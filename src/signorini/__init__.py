@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from signorini.law.closure import Closure
     from signorini.law.friction import TabularFriction
     from signorini.meshing.cut import cut
+    from signorini.meshing.halves import section
     from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
     from signorini.meshing.profile import mesh_profile, read_profile
     from signorini.meshing.read import read_mesh
@@ -112,6 +113,7 @@ __all__ = [
     "read_surface",
     "read_values",
     "rectangle",
+    "section",
     "solve",
 ]
 
@@ -122,6 +124,7 @@ _HOMES = {
     "signorini.law.closure": ("Closure",),
     "signorini.law.friction": ("TabularFriction",),
     "signorini.meshing.cut": ("cut",),
+    "signorini.meshing.halves": ("section",),
     "signorini.meshing.plane": ("annulus", "half_disk", "quarter_disk", "rectangle"),
     "signorini.meshing.profile": ("mesh_profile", "read_profile"),
     "signorini.meshing.read": ("read_mesh",),

@@ -11,6 +11,7 @@ from signorini.checks import choice, text, vector
 from signorini.deck.keys import check_keys, table, tables
 from signorini.errors import InputError, Where
 from signorini.meshing.cut import cut
+from signorini.meshing.halves import section as section_between
 from signorini.meshing.plane import annulus, half_disk, quarter_disk, rectangle
 from signorini.meshing.solid import box
 from signorini.model.mesh import Mesh, join
@@ -60,21 +61,32 @@ def cut_for_bolts(mesh: Mesh, data: Mapping[str, Any]) -> Mesh:
     """
     for i, entry in enumerate(tables(data, "bolt")):
         where: Where = ("bolt", i)
-        section, plane = entry.get("section"), entry.get("plane")
-        if not isinstance(section, str) or (plane is None and section not in mesh.boundaries):
+        section = entry.get("section")
+        given = [key for key in ("plane", "halves") if key in entry]
+        if len(given) == 2:
+            raise InputError("has both plane and halves; expected one of them", where=where)
+        if not isinstance(section, str) or not (given or section in mesh.boundaries):
             continue
+        own: Where = (*where, given[0] if given else "section")
         try:
-            if plane is None:
-                mesh = cut(mesh, section)
+            if "halves" in given:
+                mesh = section_between(mesh, section, *_halves(entry["halves"], own))
+            elif "plane" in given:
+                plane, keys = table(entry["plane"], own), ["body", "point", "normal"]
+                check_keys(plane, own, known=keys, needed=keys)
+                mesh = cut(mesh, section, **plane)
             else:
-                given = table(plane, (*where, "plane"))
-                keys = ["body", "point", "normal"]
-                check_keys(given, (*where, "plane"), known=keys, needed=keys)
-                mesh = cut(mesh, section, **given)
+                mesh = cut(mesh, section)
         except InputError as error:
-            own = (*where, "section" if plane is None else "plane")
             raise InputError(error.message, where=error.where if error.where[:1] == ("bolt",) else own) from error
     return mesh
+
+
+def _halves(value: Any, where: Where) -> tuple[str, str]:
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError(f"is {value!r}; expected two boundaries", where=where)
+    below, above = (text(name, (*where, k)) for k, name in enumerate(value))
+    return below, above
 
 
 def _one(data: dict[str, Any], where: Where, reach: Reach) -> Mesh:

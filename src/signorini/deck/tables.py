@@ -129,7 +129,8 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
                     _refuse_place(entry.get("on", ""), where)
                     entry = _varied(entry, where, reach, mesh.points.shape[1])
                 if key == "bolt":
-                    entry = {own: value for own, value in entry.items() if own != "plane"}  # the mesh is cut there
+                    made_of = ("plane", "halves")  # the mesh has that section
+                    entry = {own: value for own, value in entry.items() if own not in made_of}
                 made = make(kinds[key], entry, where)
             elif key == "fatigue":
                 made = deck_fatigue(entry, where)

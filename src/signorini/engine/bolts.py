@@ -6,11 +6,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.meshing.cut import HALF_ABOVE, HALF_BELOW, section_normal
+from signorini.meshing.halves import section_equations
 from signorini.model.conditions import Load, Support
-from signorini.model.links import AXES, Equation, Term
+from signorini.model.links import Equation
 from signorini.model.model import Model
 from signorini.solution.bolt_result import BoltResult
 
@@ -52,11 +55,26 @@ def _halves(model: Model, i: int) -> list[Equation]:
         normal = section_normal(model.mesh, section)
     except InputError as error:
         raise error.inside("bolt", i, "section") from error
-    equations = []
-    for axis, part in zip(AXES, normal.tolist(), strict=False):
-        terms: list[Term] = [(section + HALF_ABOVE, axis, 1.0), (section + HALF_BELOW, axis, -1.0)]
-        equations.append(Equation([*terms, *([(section, "x", part)] if part else [])], name=model.bolts[i].label))
-    return equations
+    _refuse_contact_between_halves(model, section)
+    return section_equations(model.mesh, section, section, normal, name=model.bolts[i].label)
+
+
+def _refuse_contact_between_halves(model: Model, section: str) -> None:
+    """Halves that are given as two bodies may still be tied, or in contact, which says other than the bolt does."""
+    mesh = model.mesh
+    halves = [mesh.nodes_of(section + half) for half in (HALF_BELOW, HALF_ABOVE)]
+    for i, contact in enumerate(model.contacts):
+        if not isinstance(contact.mortar, str):
+            continue
+        sides = [mesh.nodes_of(side) for side in (contact.nonmortar, contact.mortar)]
+        if any(
+            np.isin(one, sides[0]).any() and np.isin(other, sides[1]).any() for one, other in (halves, halves[::-1])
+        ):
+            raise InputError(
+                f"joins the halves of section '{section}', which its bolt holds opposite each other; expected no "
+                "contact between them",
+                where=("contact", i),
+            )
 
 
 def bolt_results(

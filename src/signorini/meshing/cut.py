@@ -116,7 +116,7 @@ def section_normal(mesh: Mesh, section: str) -> Array:
             f"'{section}' is no section along which the mesh is cut; expected signorini.cut(mesh, '{section}'), of a "
             "boundary inside a body"
         )
-    areas = np.concatenate([_areas(mesh, own) for own in mesh.facets(section + HALF_BELOW)])
+    areas = np.concatenate([facet_areas(mesh, own) for own in mesh.facets(section + HALF_BELOW)])
     total = (areas / np.linalg.norm(areas, axis=1, keepdims=True)).sum(axis=0)
     return np.asarray(total / np.linalg.norm(total))
 
@@ -195,22 +195,22 @@ def _pairs(facets: dict[int, CellFacets], mesh: Mesh, given: tuple[IntArray, ...
 
 def _turn_alike(mesh: Mesh, parts: list[_Pairs], where: Where) -> None:
     """Turn all facets to one side."""
-    reference = _areas(mesh, parts[0].nodes)[0]
+    reference = facet_areas(mesh, parts[0].nodes)[0]
     for _ in range(2):  # about the first facet, then about the mean
         total = np.zeros(mesh.points.shape[1])
         for i, part in enumerate(parts):
-            areas = _areas(mesh, part.nodes)
+            areas = facet_areas(mesh, part.nodes)
             back = areas @ reference < 0.0
             nodes = np.where(back[:, None], _turned(part.nodes, len(total)), part.nodes)
             parts[i] = _Pairs(nodes=nodes, cells=np.where(back[:, None], part.cells[:, ::-1], part.cells), key=part.key)
             total += np.where(back[:, None], -areas, areas).sum(axis=0)
         reference = total
-    if any((_areas(mesh, part.nodes) @ reference <= 0.0).any() for part in parts):
+    if any((facet_areas(mesh, part.nodes) @ reference <= 0.0).any() for part in parts):
         raise InputError("turns by a right angle or more; expected a section across a body", where=where)
 
 
-def _areas(mesh: Mesh, nodes: IntArray) -> Array:
-    """Normals of facets times their sizes, (m, d), of the pieces between their corners."""
+def facet_areas(mesh: Mesh, nodes: IntArray) -> Array:
+    """Normals of facets (m, k) times their sizes, (m, d), of the pieces between their corners."""
     d = mesh.points.shape[1]
     at = mesh.points[nodes[:, : facet_corners(d, nodes.shape[1])]]
     if d == 2:

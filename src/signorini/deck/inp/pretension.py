@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``*PRE-TENSION SECTION``: bolts, cut along a surface inside them and drawn together by a node of no element."""
+"""``*PRE-TENSION SECTION``: bolts, cut along a surface or given in two halves, drawn by a node of no element."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.grid import nodes_of
 from signorini.deck.inp.keywords import of_keyword
@@ -16,7 +16,8 @@ from signorini.deck.inp.known import Known
 from signorini.deck.inp.surfaces import FACES
 from signorini.errors import InputError
 from signorini.meshing.cut import HALF_ABOVE, HALF_BELOW, cut, section_normal
-from signorini.model.links import AXES, Equation, Term
+from signorini.meshing.halves import facets_opposite, section, section_equations
+from signorini.model.links import Equation
 from signorini.model.mesh import Mesh
 
 KEYWORD = "PRE-TENSION SECTION"
@@ -69,7 +70,7 @@ def make_pretensions(cards: Sequence[Card], known: Known) -> list[Pretension]:
 
 
 def cut_along(mesh: Mesh, pretensions: Sequence[Pretension]) -> Mesh:
-    """The mesh cut along all sections.
+    """The mesh cut along all sections; where one is the end of a half, what lies opposite is the other.
 
     Raises
     ------
@@ -81,10 +82,19 @@ def cut_along(mesh: Mesh, pretensions: Sequence[Pretension]) -> Mesh:
         if one.node in mesh.labels[used]:
             raise one.card.error(f"NODE={one.node} belongs to an element; expected a node of its own")
         try:
-            mesh = cut(mesh, one.section, node=False)
+            other = facets_opposite(mesh, one.section)
+            mesh = _between_halves(mesh, one.section, other) if other else cut(mesh, one.section, node=False)
         except InputError as error:
             raise one.card.error(f"surface '{one.section}' {error.message}") from error
     return mesh
+
+
+def _between_halves(mesh: Mesh, name: str, other: tuple[IntArray, ...]) -> Mesh:
+    """The mesh with the section between a boundary, whose name it takes, and the facets opposite."""
+    below, above = name + HALF_BELOW, name + HALF_ABOVE
+    boundaries = {own: facets for own, facets in mesh.boundaries.items() if own != name}
+    apart = replace(mesh, boundaries=boundaries | {below: mesh.boundaries[name], above: other})
+    return section(apart, name, below, above, node=False)
 
 
 def pretension_equations(mesh: Mesh, pretensions: Sequence[Pretension]) -> list[tuple[Equation, Card]]:
@@ -105,7 +115,6 @@ def pretension_equations(mesh: Mesh, pretensions: Sequence[Pretension]) -> list[
             middle = mesh.points[mesh.nodes_of(one.section + HALF_BELOW)].mean(axis=0)
             side = np.sign((middle - one.inside) @ normal)  # 1 where the elements of the surface are below
             normal = side * np.array(one.normal) / np.linalg.norm(one.normal)
-        for axis, part in zip(AXES, normal.tolist(), strict=False):
-            terms: list[Term] = [(one.section + HALF_ABOVE, axis, 1.0), (one.section + HALF_BELOW, axis, -1.0)]
-            found.append((Equation([*terms, *([(one.node, "x", part)] if part else [])]), one.card))
+        equations = section_equations(mesh, one.section, one.node, normal)
+        found += [(equation, one.card) for equation in equations]
     return found
