@@ -69,13 +69,14 @@ def rubbed(solution: sg.Solution, friction: float) -> float:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("model", "friction", "rounding"),
-    [(block_on_bed(), 0.3, 1e-12), (hub_on_shaft(), 0.2, 1e-4), (block_on_bed("3d", stroke=0.05), 0.3, 1e-3)],
+    [(block_on_bed(), 0.3, 1e-12), (hub_on_shaft(), 0.2, 1e-4), (block_on_bed("3d", stroke=0.05), 0.3, 1e-4)],
     ids=["plane", "axisymmetric", "space"],
 )
 def test_worn_volume_is_pressure_times_distance_of_both_sides(
     model: sg.Model, friction: float, rounding: float
 ) -> None:
-    """To rounding, each side with its coefficient; a press fit is pressed in one increment, and in space all is."""
+    """To rounding, each side with its coefficient; a press fit is pressed in one increment, and in space increments
+    are as short where pairs act as the energy balance wants."""
     solution = sg.solve(model)
     wear, sides = solution.end.state.wear, solution.last.contacts[0].wear
     whole = wear.volume + wear.loose

@@ -6,6 +6,7 @@ Where the law of contact holds all along them they are enough as they are.
 In the plane 1, 2, 4, ... equal ones. In space they end at events (a pair opens, closes or starts to slip), on the exact
 cone too, unless that would make them shorter than 1, 1/4, 1/16, ... of the way; where friction turns little and nothing
 happens they are longer. Where that way is lost they are equal as in the plane. Jumps on it are followed, or end it.
+Where sides slide far, and errors of strides add up, they are shorter where pairs act, until the energy balances.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.engine.energy import stored_energy
+from signorini.engine.energy import missing_energy
 from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments, is_straight
 from signorini.engine.jump_watch import follow_watchfully, sudden_change
@@ -27,6 +28,8 @@ from signorini.outcome import Outcome
 _CERTAIN = 16  # increments on a way in space of which it is believed that it jumps, or that it does not
 _VAIN = 16  # times as many increments, that change the answer no less: it does not settle
 _LOST = 4  # times the number that is enough: the most that are tried where a way in space is lost
+_BALANCE = 1e-4  # of the work of a stride in space: energy that is missing where increments pass over events
+_ACTING = (4, 16, 64, 256)  # times shorter increments where pairs act, which are tried in turn until no more is missing
 _FINER_HINT = 'expected less? Give the step increments = "auto" or their number'
 
 
@@ -79,10 +82,11 @@ def follow_automatically(
         if coarse is not None:
             change, changes = _change(coarse, fine)
             note = f"{words}: {fewer} change {changes}"
-            if change <= tolerance and (number >= _CERTAIN or _defect(prepared, fine) <= tolerance):
+            settled = change <= tolerance and (number >= _CERTAIN or _missing(prepared, fine) <= tolerance)
+            if settled or (enough is not None and number >= enough):
+                fine = _balanced(part, fine, number, jump) if prepared.model.slides else fine
+                note = note if settled else f"{note}; {_FINER_HINT}"
                 return replace(fine, path="increments", notes=(*fine.notes, note))
-            if enough is not None and number >= enough:
-                return replace(fine, path="increments", notes=(*fine.notes, f"{note}; {_FINER_HINT}"))
             seen[number] = change
             if number >= _VAIN * _CERTAIN and change >= seen.get(number // _VAIN, np.inf):
                 break
@@ -118,15 +122,40 @@ def _change(coarse: FollowedPart, fine: FollowedPart) -> tuple[float, str]:
     return max(change, lost), f"{words} and dissipation by {lost:.1e} of the work" if lost > change else words
 
 
-def _defect(prepared: Prepared, followed: FollowedPart) -> float:
-    """Energy that a way in space neither stores nor dissipates, of its work: much where something was passed over."""
+def _missing(prepared: Prepared, followed: FollowedPart) -> float:
+    """Energy that is missing on a way in space, of its work: much where something was passed over."""
     if prepared.interface.directions == 2:
         return 0.0
-    before, after = followed.before, followed.after
-    work = after.work - before.work
-    stored = stored_energy(prepared, after) - stored_energy(prepared, before)
-    lost = float((after.dissipation - before.dissipation).sum()) + after.released - before.released
-    return abs(work - stored - lost) / (abs(work) or 1.0)
+    return missing_energy(prepared, followed.before, followed.after)
+
+
+def _balanced(
+    part: StepPart, followed: FollowedPart, number: int, jump: Literal["stop", "follow"] | None
+) -> FollowedPart:
+    """Increments of a stride in space, once more and shorter where pairs act, until energy is not missing any more.
+
+    Parameters
+    ----------
+    part, jump : as of `follow_automatically`
+    followed : in so many increments
+    number : of them, at most
+    """
+    missing = _missing(part.prepared, followed)
+    if missing <= _BALANCE:
+        return followed
+    words = ""
+    for acting in _ACTING:
+        try:
+            finer = follow_to_events(part, number, jumps=jump == "follow", acting=acting)
+        except SolveFailed:
+            break
+        if (left := _missing(part.prepared, finer)) < missing:
+            followed, missing = finer, left
+            words = f"{_counted(len(finer.trace))}, where pairs act down to 1/{number * acting}"
+        if missing <= _BALANCE:
+            break
+    words = f"{words}: " if words else ""
+    return replace(followed, notes=(*followed.notes, f"{words}energy is missing by {missing:.1e} of its work"))
 
 
 def _followed(part: StepPart, number: int, jump: Literal["stop", "follow"] | None) -> tuple[FollowedPart, str]:

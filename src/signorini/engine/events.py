@@ -89,7 +89,13 @@ def follow_exactly(part: StepPart, *, jumps: bool = False) -> FollowedPart:
 
 
 def follow_to_events(
-    part: StepPart, number: int, *, jumps: bool = False, behind: float = 0.0, known: Overload | None = None
+    part: StepPart,
+    number: int,
+    *,
+    jumps: bool = False,
+    behind: float = 0.0,
+    known: Overload | None = None,
+    acting: int = 1,
 ) -> FollowedPart:
     """Follow a straight part of a step in space in increments that end at events.
 
@@ -98,13 +104,15 @@ def follow_to_events(
     number : an increment need not be shorter than 1 / number of the part, whatever happens in it
     jumps : see `follow_exactly`
     behind, known : of a longer straight way that the part ends, see `PathSettings`
+    acting : times shorter it may be where pairs act
 
     Raises
     ------
     SolveFailed
         As `follow_exactly` does.
     """
-    stops = replace(stops_at(number, part.prepared.settings), behind=behind, known=known)
+    stops = stops_at(number, part.prepared.settings)
+    stops = replace(stops, shortest=stops.shortest / acting, behind=behind, known=known)
     return _beyond_jumps(part, "increments to events", jumps=jumps, stops=stops)
 
 
