@@ -6,6 +6,7 @@ python3 dev.py example     install the package and run the paper's example
 python3 dev.py quick       what takes two minutes: lint, types, fast tests, an example
 python3 dev.py test        run every check: lint, types, all tests, all examples, the verification suite
 python3 dev.py figures     draw the pictures of README and docs again
+python3 dev.py site        build the documentation into out/site
 """
 
 from __future__ import annotations
@@ -122,8 +123,14 @@ def figures() -> None:
     run("python", "examples/readme_picture.py")
 
 
+def site() -> None:
+    """The documentation as pages, every warning an error."""
+    install("[dev]")
+    run("python", "-m", "website", "out/site")
+
+
 if __name__ == "__main__":
-    commands = {"example": example, "quick": quick, "test": test, "figures": figures}
+    commands = {"example": example, "quick": quick, "test": test, "figures": figures, "site": site}
     if len(sys.argv) != 2 or sys.argv[1] not in commands:
         sys.exit(__doc__)
     commands[sys.argv[1]]()
