@@ -34,11 +34,11 @@ import matplotlib as mpl
 from benchmarks import command
 from benchmarks.mutations import KINDS, Corpus, corpus, damage, small_model
 from signorini.api import solve
-from signorini.cli.check_text import deck_text
 from signorini.deck import load_deck
 from signorini.engine.examine import examine
 from signorini.errors import InputError, SolveFailed
 from signorini.gallery.spheres import hollow_spheres
+from signorini.inspection.text import deck_text
 from signorini.meshing.profile import read_profile
 from signorini.meshing.read import read_mesh
 from signorini.meshing.surface import read_surface

@@ -54,7 +54,7 @@ CORE = {
     "plasticity",
     "solution",
 }
-BELOW_CLI = BASE | CORE | {"engine", "vibration", "deck", "output", "plot", "reference"}
+BELOW_CLI = BASE | CORE | {"engine", "vibration", "deck", "output", "plot", "inspection", "reference"}
 
 # folder or file: what it may import besides itself and the base
 ALLOWED = {
@@ -76,6 +76,7 @@ ALLOWED = {
     "deck": {"law", "fatigue", "model", "meshing", "fem"},
     "output": {"solution", "law", "fatigue", "model", "meshing", "fem", "plasticity"},
     "plot": {"solution", "law", "model", "output"},
+    "inspection": CORE | {"engine", "deck", "output"},
     "reference": set(),
     "gallery": BELOW_CLI | {"api"},
     "verify": BELOW_CLI | {"api", "gallery"},

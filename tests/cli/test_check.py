@@ -12,10 +12,10 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
-from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.engine import solve as engine
 from signorini.engine.duplicate_check import same_loads
 from signorini.engine.examine import examine
+from signorini.inspection.notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 
 DECK = Path(__file__).parents[1] / "deck" / "inp" / "decks" / "two_blocks.inp"
 

@@ -40,9 +40,9 @@ def modes(options: argparse.Namespace) -> int:
 def check(options: argparse.Namespace) -> int:
     """Print a deck as it was understood, and notes on it; 0 unless something is wrong. Solves nothing."""
     deck = _load(options)
-    from signorini.cli.check_json import deck_data
-    from signorini.cli.check_text import all_notes, deck_text
     from signorini.engine.examine import examine
+    from signorini.inspection.data import deck_data
+    from signorini.inspection.text import all_notes, deck_text
 
     try:
         examined = examine(deck.model)

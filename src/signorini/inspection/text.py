@@ -6,8 +6,6 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.cli.check_json import total_force
-from signorini.cli.check_notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.deck import Deck
 from signorini.engine.duplicate_check import same_loads
 from signorini.engine.examine import Examined
@@ -16,6 +14,8 @@ from signorini.engine.validity_notes import finer_notes, overlap_notes
 from signorini.engine.ways import TOLERANCE_OF_FORCES
 from signorini.fem.locking import stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motions
+from signorini.inspection.data import total_force
+from signorini.inspection.notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.law.friction import FrictionLaw
 from signorini.model.contact import Contact
 from signorini.model.model import Model
