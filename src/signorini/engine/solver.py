@@ -315,11 +315,12 @@ def _friction(condensed: Condensed, interface: Interface) -> dict[str, Any]:
     posed = interface.friction.among(active).posed(interface.area[active] / condensed.root)
     if interface.directions == 2:
         return posed
+    axes, of_bound = interface.anisotropy[active].T, isinstance(posed["friction"], Bound)
     if not active.any():
         posed["friction"] = np.zeros((interface.directions - 1, 0))  # tells a law without pairs its directions
-    elif not isinstance(posed["friction"], Bound):
-        posed["friction"] = posed["friction"] * interface.anisotropy[active].T
-    return posed | {"facets": interface.facets[active]}
+    elif not of_bound:
+        posed["friction"] = posed["friction"] * axes
+    return posed | {"facets": interface.facets[active], "axes": axes if of_bound and active.any() else None}
 
 
 def _size(condensed: Condensed, interface: Interface, scale: Scale) -> float:

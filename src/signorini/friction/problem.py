@@ -47,6 +47,7 @@ class ContactProblem:
         the pair is open; None stands for none
     facets : corners of a polygon inscribed in the ellipse that stands for it, the first on the first tangent; a
         multiple of 4, or 0 for the ellipse itself; one number, or (n,)
+    axes : (d - 1, n) friction along the tangents over the largest, where it is a `Bound`; None: as ``friction`` says
 
     Raises
     ------
@@ -76,6 +77,7 @@ class ContactProblem:
     limit: Array | None = None
     tresca: BoolArray | None = None
     facets: int | IntArray = 0
+    axes: Array | None = None
 
     @classmethod
     def of(cls, *, W: ArrayLike, motions: ArrayLike, **law: Any) -> Self:
@@ -206,7 +208,7 @@ class ContactProblem:
     @cached_property
     def section(self) -> FrictionSection:
         """Of the friction cones, for a larger friction of 1."""
-        shape = np.ones((self.directions - 1, self.pairs))
+        shape = np.ones((self.directions - 1, self.pairs)) if self.axes is None else self.axes
         if self.pairs and not isinstance(self.friction, Bound) and self.friction.ndim == 2:
             given = np.minimum(self.friction, STICKING_FRICTION)
             largest = given.max(axis=0)
@@ -269,6 +271,8 @@ class ContactProblem:
             data.append(("friction", self.friction, [(n,), *((k, n) for k in tangents)]))
             others = (("adhesion", self.adhesion), ("limit", self.limit), ("tresca", self.tresca))
             data += [(name, given, [(n,)]) for name, given in others if given is not None]
+        if self.axes is not None:
+            data.append(("axes", self.axes, [(len(self.b) // max(1, n) - 1, n)]))
         for name, found, expected in data:
             if found.shape not in expected:
                 said = " or ".join(map(str, expected))

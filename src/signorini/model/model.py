@@ -12,7 +12,6 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.checks import choice, members, number
 from signorini.errors import InputError, one_of
-from signorini.law.friction import FrictionLaw
 from signorini.model.body import Body
 from signorini.model.bolt import Bolt
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Place, Support
@@ -120,9 +119,6 @@ class Model(Short):
             self._check_load(i, load)
         for i, contact in enumerate(self.contacts):
             self._check_contact(i, contact)
-            if isinstance(contact.friction, tuple) and any(isinstance(c.friction, FrictionLaw) for c in self.contacts):
-                words = "has two coefficients, and another contact a law of its own; expected one coefficient"
-                raise InputError(words, where=("contact", i, "friction"))
         for i, obstacle in enumerate(self.obstacles):
             self._check_obstacle(i, obstacle)
         held: tuple[Support | Foundation, ...] = (*self.supports, *self.foundations)

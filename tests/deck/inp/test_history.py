@@ -159,6 +159,38 @@ def test_friction_has_a_largest_traction(tmp_path: Path) -> None:
         sg.read(deck)
 
 
+@pytest.mark.parametrize(
+    ("rows", "points"),
+    [
+        (".4,,2.\n.3,0.,5.\n.2,,10.", ([2.0, 5.0, 10.0], [0.4, 0.3, 0.2])),
+        (".4,,0.\n.3,,4.\n.2,,8.", ([2.0, 4.0, 8.0], [0.35, 0.3, 0.2])),  # up to half the way to the second point
+        (".3,,5.", 0.3),
+    ],
+)
+def test_friction_over_pressure(tmp_path: Path, rows: str, points: tuple[list[float], list[float]] | float) -> None:
+    deck = tmp_path / "deck.inp"
+    deck.write_text(TWO_BLOCKS.replace("*FRICTION\n0.3", f"*FRICTION\n{rows}"))
+    assert sg.read(deck).contacts[0].friction == (points if isinstance(points, float) else sg.TabularFriction(*points))
+
+
+@pytest.mark.parametrize(
+    ("words", "rows", "told"),
+    [
+        ("", ".4,,2.\n.3,1.,5.", "a coefficient that depends on the slip rate is not supported"),
+        ("", ".4,,2.\n.3,,5.,20.", "a coefficient that depends on temperature is not supported"),
+        ("", ".4,,2.\n.3", "has 1 fields; expected the pressure in field 3"),
+        ("", ".1,,2.\n.3,,5.", "FRICTION: coefficients: is 0.3 at 5, up to which friction grows faster"),
+        ("", ".1,,2.\n-.3,,5.", "the coefficient is -0.3; expected a number >= 0"),
+        (", TAUMAX=2.", ".4,,2.\n.3,,5.", "expected a traction > 0, and no ROUGH or table over pressure"),
+    ],
+)
+def test_friction_over_pressure_that_is_none(tmp_path: Path, words: str, rows: str, told: str) -> None:
+    deck = tmp_path / "deck.inp"
+    deck.write_text(TWO_BLOCKS.replace("*FRICTION\n0.3", f"*FRICTION{words}\n{rows}"))
+    with pytest.raises(DeckError, match=told):
+        sg.read(deck)
+
+
 PULL = "*STEP\n*STATIC\n*BOUNDARY\nTop, 2, 2, -0.001\n*CLOAD\n16, 1, 40.\n*END STEP\n"
 
 

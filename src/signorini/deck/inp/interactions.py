@@ -13,6 +13,7 @@ from signorini.deck.inp.keywords import collect
 from signorini.deck.inp.refusals import Refusals
 from signorini.errors import InputError
 from signorini.law.closure import Closure
+from signorini.law.friction import TabularFriction
 
 _INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
 """Keywords that belong to the ``*SURFACE INTERACTION`` before them and that are read here."""
@@ -20,6 +21,11 @@ _INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
 EXPONENTIAL_NOTE = (
     "PRESSURE-OVERCLOSURE=EXPONENTIAL is p0 exp(-ln(100) gap / c0), as in CalculiX, by secants within 1 %; Abaqus "
     "means another curve, that of closure = { clearance = c0, pressure = p0 }"
+)
+
+FRICTION_NOTE = (
+    "*FRICTION over pressure: between its lines the traction is straight, not the coefficient, and beyond the last it "
+    "goes on as between the last two; Abaqus has the coefficient straight, and constant beyond the last"
 )
 
 _EXPONENTIAL_TOLERANCE = 0.01  # of the pressure, as of `Closure.exponential`
@@ -33,7 +39,7 @@ class Interaction:
     Attributes
     ----------
     card : where it begins
-    friction : Coulomb's coefficient, or "stick"
+    friction : Coulomb's coefficient, "stick", or a table over pressure
     normal_compliance, tangential_compliance : length per pressure
     shear_limit : largest traction of friction, or None
     tied : the surfaces never part
@@ -42,7 +48,7 @@ class Interaction:
     """
 
     card: Card
-    friction: float | Literal["stick"] = 0.0
+    friction: float | Literal["stick"] | TabularFriction = 0.0
     normal_compliance: float = 0.0
     tangential_compliance: float = 0.0
     shear_limit: float | None = None
@@ -69,7 +75,8 @@ def _begun(card: Card) -> Interaction:
 def _with(law: Interaction, card: Card) -> Interaction:
     if card.keyword == "FRICTION":
         friction, compliance = read_friction(card)
-        return replace(law, friction=friction, tangential_compliance=compliance, shear_limit=_limit(card))
+        note = "; ".join(filter(None, [law.note, FRICTION_NOTE if isinstance(friction, TabularFriction) else ""]))
+        return replace(law, friction=friction, tangential_compliance=compliance, shear_limit=_limit(card), note=note)
     enforcement = ("PENALTY", "AUGMENTED LAGRANGE", "DIRECT", "MECHANICAL CONSTRAINT")  # ours is exact
     card.refuse_unknown(("PRESSURE-OVERCLOSURE",), enforcement)
     kind = card.choice("PRESSURE-OVERCLOSURE", ("HARD", "LINEAR", "TABULAR", "EXPONENTIAL", "TIED"), "HARD")
@@ -111,22 +118,41 @@ def _exponential(card: Card) -> Closure:
     return Closure([(clearance * x, pressure * p) for x, p in law.points])
 
 
-def read_friction(card: Card) -> tuple[float | Literal["stick"], float]:
-    """Coefficient and tangential compliance of a ``*FRICTION``; CalculiX's stick slope is the compliance's inverse."""
+def read_friction(card: Card) -> tuple[float | Literal["stick"] | TabularFriction, float]:
+    """Friction and tangential compliance of a ``*FRICTION``; CalculiX's stick slope is the compliance's inverse."""
     card.refuse_unknown(("ROUGH", "LAGRANGE", "TAUMAX"), ("SLIP TOLERANCE", "ELASTIC SLIP"))
     if "ROUGH" in card.parameters:
         return "stick", 0.0
     rows = list(card.rows())
-    if len(rows) != 1:
-        raise card.error(f"has {len(rows)} data lines; expected one: a constant coefficient")
+    if not rows:
+        raise card.error("has no data line; expected a coefficient of friction")
+    if any(any(row.fields[3:]) for row in rows):
+        raise card.error("a coefficient that depends on temperature is not supported")
+    coefficients = [row.number(0, "the coefficient of friction") for row in rows]
+    for row, value in zip(rows, coefficients, strict=True):
+        if value < 0.0:
+            raise row.error(f"*FRICTION: the coefficient is {value:g}; expected a number >= 0")
     row = rows[0]
-    coefficient = row.number(0, "the coefficient of friction")
-    if coefficient < 0.0:
-        raise row.error(f"*FRICTION: the coefficient is {coefficient:g}; expected a number >= 0")
-    if any(row.fields[2:]):
-        raise row.error("*FRICTION: a coefficient that depends on pressure or temperature is not supported")
+    if len(rows) > 1:
+        return _over_pressure(rows, coefficients), 0.0
     slope = _positive(row, 1, "the stick slope, traction per slip") if len(row.fields) > 1 and row.fields[1] else 0.0
-    return coefficient, 1.0 / slope if slope else 0.0
+    return coefficients[0], 1.0 / slope if slope else 0.0
+
+
+def _over_pressure(rows: Sequence[Row], coefficients: Sequence[float]) -> TabularFriction:
+    """Coefficients over pressures, a line each; from one at no pressure the way to the next goes through their mean."""
+    for row in rows:
+        if row.number(1, "the slip rate", 0.0) != 0.0:
+            raise row.error("*FRICTION: a coefficient that depends on the slip rate is not supported")
+    points = [(row.number(2, "the pressure"), mu) for row, mu in zip(rows, coefficients, strict=True)]
+    if points[0][0] == 0.0:
+        (_, first), (pressure, second) = points[:2]
+        points[0] = 0.5 * pressure, 0.5 * (first + second)
+    try:
+        return TabularFriction(*zip(*points, strict=True))
+    except InputError as error:
+        place = int(error.where[1]) if len(error.where) > 1 else 0
+        raise rows[place].error(f"*FRICTION: {error.where[0]}: {error.message}") from error
 
 
 def _limit(card: Card) -> float | None:
@@ -134,8 +160,8 @@ def _limit(card: Card) -> float | None:
     if "TAUMAX" not in card.parameters:
         return None
     limit = to_number(card.value("TAUMAX", "a traction"))
-    if limit is None or not limit > 0.0 or "ROUGH" in card.parameters:
-        raise card.error(f"TAUMAX={card.get('TAUMAX')}: expected a traction > 0, and no ROUGH")
+    if limit is None or not limit > 0.0 or "ROUGH" in card.parameters or len(list(card.rows())) > 1:
+        raise card.error(f"TAUMAX={card.get('TAUMAX')}: expected a traction > 0, and no ROUGH or table over pressure")
     return limit
 
 

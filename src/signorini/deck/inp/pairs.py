@@ -16,6 +16,7 @@ from signorini.deck.inp.interactions import Interaction, read_friction
 from signorini.deck.inp.keywords import look_up, of_keyword
 from signorini.deck.inp.known import Known
 from signorini.deck.inp.surfaces import DeckSurface
+from signorini.law.friction import TabularFriction
 from signorini.model.contact import Contact
 from signorini.model.varying import NodeValues
 
@@ -269,6 +270,8 @@ def make_changes(cards: Sequence[Card], known: Known, pairs: Sequence[Pair]) -> 
             coefficient, compliance = read_friction(card)
             if "TAUMAX" in card.parameters or changed.shear_limit is not None:
                 raise card.error("changes friction with a largest traction, which is not supported")
+            if isinstance(coefficient, TabularFriction) or isinstance(changed.friction, TabularFriction):
+                raise card.error("changes friction that depends on pressure, which is not supported")
             if compliance != changed.tangential_compliance:
                 raise card.error("changes the stick slope, which is not supported; expected that of the model")
             friction |= {pair.contact.label: coefficient for pair in pairs if pair.interaction == changed.name.upper()}
