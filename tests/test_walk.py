@@ -14,7 +14,7 @@ MOST_FILES = 125  # that a newcomer reads from a deck to its answer
 # what the paper's cylinder has not, and the folders and files that are there for it alone
 FEATURES = {
     "bolts": ["engine/bolts", "meshing/cut", "model/bolt"],
-    "cyclic symmetry": ["fem/cyclic"],
+    "cyclic symmetry": ["fem/cyclic", "fem/neighbours", "interface/sectors"],
     "equations and rigid bodies": ["fem/links"],
     "elastic foundations": ["fem/foundation"],
     "obstacles that move": ["fem/obstacles", "model/rigid"],

@@ -8,7 +8,7 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
-from signorini.gallery.sectors import SECTORS, ring_on_pads
+from signorini.gallery.sectors import SECTORS, ring_on_pads, ring_on_shaft
 
 STEEL = sg.Elastic(E=200.0, nu=0.3, density=2.0)
 
@@ -70,21 +70,120 @@ def test_a_sector_with_contact_and_friction_is_the_whole():
     assert part.dissipation > 0.0
 
 
-def test_a_contact_that_a_sector_cuts_is_refused():
-    meshes = {"hub": ring(60.0, 8), "shaft": ring(60.0, 8, inner=0.4, outer=1.0)}
-    model = sg.Model(
-        sg.join(meshes),
-        bodies=[sg.Body("hub", STEEL), sg.Body("shaft", STEEL)],
-        supports=[sg.Support("shaft.inner", u=(0.0, 0.0))],
-        contacts=[sg.Contact("hub.inner", "shaft.outer", interference=0.002)],
-        cyclic_symmetries=[sg.CyclicSymmetry(f"{name}.start", f"{name}.end", sectors=6) for name in meshes],
+def beside_the_whole(whole, sector, tolerance=1e-9):
+    """A sector with a contact that its sides cut, whose steps are those of the whole."""
+    one, part = sg.solve(whole), sg.solve(sector)
+    for a, b in zip(one.steps, part.steps, strict=True):
+        there, own = a.contacts[0], b.contacts[0]
+        assert len(there.pressure) == SECTORS * len(own.pressure)
+        at = nearest(there.points, own.points)
+        assert own.pressure == pytest.approx(there.pressure[at], abs=tolerance * there.pressure.max())
+        size = tolerance * there.pressure.max()
+        assert np.linalg.norm(own.traction, axis=-1) == pytest.approx(
+            np.linalg.norm(there.traction[at], axis=-1), abs=size
+        )
+        assert own.gap == pytest.approx(there.gap[at], abs=1e-11)
+        assert own.area == pytest.approx(there.area[at], rel=1e-11)
+        assert SECTORS * b.strain_energy == pytest.approx(a.strain_energy, rel=tolerance)
+        assert SECTORS * b.dissipation == pytest.approx(a.dissipation, rel=tolerance, abs=1e-15)
+        assert b.certificate.passed
+    return part
+
+
+def test_a_contact_that_a_sector_cuts_is_that_of_the_whole():
+    part = beside_the_whole(ring_on_shaft(whole=True), ring_on_shaft(whole=False))
+    own = part.steps[-1].contacts[0]
+    at = np.linalg.norm(own.points - [1.0, 0.0], axis=1) < 1e-12  # where the sector is cut
+    assert own.status[at] == ["slip"]
+    assert {"stick", "slip"} == set(own.status)
+    assert part.steps[-1].dissipation > 0.0
+
+
+@pytest.mark.parametrize(
+    "given",
+    [{"coupling": "node-to-segment"}, {"side": "coarser"}, {"gap": "zero", "interference": "0.002 + 0.001*x^2"}],
+)
+def test_however_its_pairs_are_made(given):
+    """A crown is that of a sector in every other one: the whole has it from a function of the angle in its sector."""
+    whole, sector = (ring_on_shaft(whole=every) for every in (True, False))
+    contacts = [replace(sector.contacts[0], **given)]
+    if "gap" in given:
+
+        def crown(at):
+            angle = np.arctan2(at[:, 1], at[:, 0]) % (2.0 * np.pi / SECTORS)
+            angle[angle > 2.0 * np.pi / SECTORS - 1e-9] = 0.0
+            return 0.002 + 0.001 * np.cos(angle) ** 2
+
+        given = {"gap": "zero", "interference": crown}
+    whole = replace(whole, contacts=[replace(whole.contacts[0], **given)])
+    beside_the_whole(whole, replace(sector, contacts=contacts))
+
+
+def test_sides_turn_onto_each_other_one_way_or_the_other():
+    sector = ring_on_shaft(whole=False)
+    one, other = sector.cyclic_symmetries
+    turned = replace(sector, cyclic_symmetries=[one, replace(other, first=other.second, second=other.first)])
+    first, second = (sg.solve(model).steps[-1] for model in (sector, turned))
+    assert second.strain_energy == pytest.approx(first.strain_energy, rel=1e-12)
+    there = replace(other, point=(1e-3, 0.0))
+    with pytest.raises(sg.InputError, match=r"cyclic_symmetry\[1\]: node 26 of 'shaft.start'"):
+        sg.solve(replace(sector, cyclic_symmetries=[one, there]))
+
+
+def hub(obstacle, **given):
+    return sg.Model(
+        ring(60.0, 4),
+        bodies=[sg.Body("ring", STEEL)],
+        supports=[sg.Support("outer", u=(0.0, 0.0))],
+        contacts=[sg.Contact("inner", obstacle, **given)],
+        cyclic_symmetries=[sg.CyclicSymmetry("start", "end", sectors=6)],
     )
-    with pytest.raises(sg.InputError, match=r"reaches 'hub\.start' or 'hub\.end' at node 1"):
-        sg.solve(model)
-    shaft = replace(model, cyclic_symmetries=model.cyclic_symmetries[1:])  # whichever side turns out to be the coarser
-    shaft = replace(shaft, contacts=[replace(model.contacts[0], side="coarser")])
-    with pytest.raises(sg.InputError, match=r"contact\[0\]\.mortar: reaches 'shaft\.start' or 'shaft\.end' at node"):
-        sg.solve(shaft)
+
+
+def test_an_obstacle_is_the_same_in_every_sector_or_told():
+    sector = hub(sg.Circle((0.0, 0.0), 1.0), interference=0.01)
+    whole = replace(sector, mesh=ring(360.0, 24), cyclic_symmetries=[])
+    beside_the_whole(whole, sector)
+    said = r"contact\[0\].mortar: is reached where the sector is cut, at nodes 1 and 17, and is not the same in every"
+    with pytest.raises(sg.InputError, match=said):
+        sg.solve(hub(sg.Circle((0.1, 0.0), 0.9)))
+
+
+def test_what_does_not_go_with_a_contact_that_is_cut_is_told():
+    sector = ring_on_shaft(whole=False)
+    for given, said in (
+        ({"sliding": "finite"}, "sliding: goes with contacts that no side of a cyclic sector cuts"),
+        ({"wear": sg.Wear(1e-9)}, "wear: goes with contacts that no side of a cyclic sector cuts"),
+    ):
+        with pytest.raises(sg.InputError, match=rf"contact\[0\]\.{said}"):
+            sg.solve(replace(sector, contacts=[replace(sector.contacts[0], **given)]))
+
+
+@pytest.mark.slow
+def test_contact_in_space_that_a_sector_cuts_is_that_of_the_whole():
+    """About another axis, on faces that do not match, tied or slipping, in increments: events are near each other."""
+
+    def made(whole, friction, press):
+        flat = ring_on_shaft(whole=whole)
+        tilt = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+        mesh = sg.extruded(flat.mesh, z=[0.0, 0.4])
+        return sg.Model(
+            replace(mesh, points=mesh.points @ tilt.T + [3.0, -1.0, 2.0]),
+            bodies=flat.bodies,
+            supports=[sg.Support("shaft.inner", u=(0.0, 0.0, 0.0))],
+            loads=[sg.Load("ring.outer", pressure=lambda at: lobes(at[:, 1] + 1.0, at[:, 2] - 2.0), name="lobes")],
+            contacts=[sg.Contact("ring.inner", "shaft.outer", friction=friction, **press)],
+            cyclic_symmetries=[
+                replace(one, axis=(1.0, 0.0, 0.0), point=(3.0, -1.0, 2.0)) for one in flat.cyclic_symmetries
+            ],
+        )
+
+    def lobes(x, y):
+        return 0.1 + 0.1 * np.sin(SECTORS * np.arctan2(y, x) + 4.4)
+
+    pressed = {"gap": "zero", "interference": 0.002}  # gaps of the drawn sides of the whole repeat to 1e-7 only
+    for friction, press in ((0.05, pressed), ("tied", {})):
+        beside_the_whole(made(True, friction, press), made(False, friction, press))
 
 
 def test_in_space_about_an_axis_of_its_own():

@@ -15,7 +15,6 @@ from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
 from signorini.engine.fatigue_places import refuse_requests
 from signorini.errors import InputError
 from signorini.fem.body_frames import BodyFrames
-from signorini.fem.cyclic import refuse_contact_across
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
@@ -24,6 +23,7 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.fem.turning_bodies import turning_bodies
 from signorini.interface.interface import Interface, make_interface, pairs_of
+from signorini.interface.sectors import sector_interface
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
 from signorini.solution.checkpoint import Checkpoint
@@ -89,10 +89,8 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     first, sometimes = schedule[0].released, schedule[-1].loosened
     constraints = make_constraints(space, model, without=first)
     always = make_constraints(space, model, without=sometimes) if sometimes != first else constraints
-    if model.cyclic_symmetries:
-        refuse_contact_across(space, model)
     loads = nodal_loads(space, model)
-    interface = make_interface(space, model, always)
+    interface = (sector_interface if model.cyclic_symmetries else make_interface)(space, model, always)
     if start is not None:
         start.check(model, interface)
     parts = connected_bodies(space, model)

@@ -31,21 +31,37 @@ def cyclic_rows(space: Space, model: Model, j: int) -> tuple[IntArray, Array]:
     InputError
         If a node of a side has no partner on the other.
     """
-    symmetry = model.cyclic_symmetries[j]
-    where: Where = ("cyclic_symmetry", j)
-    first, second = (space.mesh.nodes_of(name) for name in (symmetry.first, symmetry.second))
-    turn, partner = _matched(space, symmetry, first, second, where)
-    own, other = space.dofs(second[partner]), space.dofs(first)
+    turn, first, second = cyclic_sides(space, model, j)
+    own, other = space.dofs(second), space.dofs(first)
     columns = np.concatenate([own[:, :, None], np.repeat(other[:, None, :], own.shape[1], axis=1)], axis=2)
     values = np.concatenate([np.ones((*own.shape, 1)), np.broadcast_to(-turn, (*own.shape, len(turn)))], axis=2)
-    on_axis = (second[partner] == first)[:, None] & (np.abs(turn - np.eye(len(turn))).max(axis=1) == 0.0)
+    on_axis = (second == first)[:, None] & (np.abs(turn - np.eye(len(turn))).max(axis=1) == 0.0)
     return columns[~on_axis], values[~on_axis]
 
 
-def refuse_contact_across(space: Space, model: Model) -> None:
-    """Refuse contacts whose nonmortar nodes are on a side of a sector: half of what they bear is on the other.
+def cyclic_sides(space: Space, model: Model, j: int) -> tuple[Array, IntArray, IntArray]:
+    """R, (d, d), nodes of the first side of a sector, (k,), and those of the second one that R takes them to.
 
-    Which side of a contact is the coarser one, and nonmortar for that, is known later: neither may reach a side then.
+    Parameters
+    ----------
+    space, model : with the sides
+    j : number of the symmetry
+
+    Raises
+    ------
+    InputError
+        If a node of a side has no partner on the other.
+    """
+    symmetry = model.cyclic_symmetries[j]
+    first, second = (space.mesh.nodes_of(name) for name in (symmetry.first, symmetry.second))
+    turn, partner = _matched(space, symmetry, first, second, ("cyclic_symmetry", j))
+    return turn, first, second[partner]
+
+
+def contacts_across(space: Space, model: Model) -> list[int]:
+    """Numbers of the contacts that a side of a sector cuts: some of what their nodes there bear is in the next one.
+
+    Which side of a contact is the coarser one, and nonmortar for that, is known later: either may reach a side then.
 
     Parameters
     ----------
@@ -54,23 +70,22 @@ def refuse_contact_across(space: Space, model: Model) -> None:
     Raises
     ------
     InputError
-        With the contact and a node.
+        If one slides far or wears.
     """
-    for symmetry in model.cyclic_symmetries:
-        sides = np.union1d(space.mesh.nodes_of(symmetry.first), space.mesh.nodes_of(symmetry.second))
-        for i, contact in enumerate(model.contacts):
-            names = {"nonmortar": contact.nonmortar}
-            if contact.side == "coarser" and isinstance(contact.mortar, str):
-                names["mortar"] = contact.mortar
-            for key, name in names.items():
-                both = np.intersect1d(space.mesh.nodes_of(name), sides)
-                if len(both):
-                    raise InputError(
-                        f"reaches '{symmetry.first}' or '{symmetry.second}' at node {space.mesh.labels[both[0]]}, "
-                        "where a cyclic sector ends; expected a sector cut where nothing touches, or supports of "
-                        "symmetry",
-                        where=("contact", i, key),
-                    )
+    ends = [name for symmetry in model.cyclic_symmetries for name in (symmetry.first, symmetry.second)]
+    sides = [space.mesh.nodes_of(name) for name in ends]
+    found = []
+    for i, contact in enumerate(model.contacts):
+        both = contact.side == "coarser" and isinstance(contact.mortar, str)
+        names = [contact.nonmortar, *([str(contact.mortar)] if both else [])]
+        if not any(np.intersect1d(space.mesh.nodes_of(name), side).size for name in names for side in sides):
+            continue
+        for key, given in (("sliding", contact.slides), ("wear", contact.wear is not None)):
+            if given:
+                words = "goes with contacts that no side of a cyclic sector cuts; expected a sector cut elsewhere"
+                raise InputError(words, where=("contact", i, key))
+        found.append(i)
+    return found
 
 
 def _matched(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A ring on pads, whole and as one of its sectors."""
+"""Rings in contact, whole and as one of their sectors."""
 
 from __future__ import annotations
 
@@ -57,6 +57,33 @@ def ring_on_pads(*, whole: bool) -> Model:
     )
 
 
+def ring_on_shaft(*, whole: bool) -> Model:
+    """A ring that is shrunk on a shaft and dragged around it until some of it slips: sectors cut their contact.
+
+    Parameters
+    ----------
+    whole : all sectors, or one with cyclic symmetry
+    """
+    count = SECTORS if whole else 1
+    angle = 360.0 / SECTORS * count
+    parts = {"ring": _arc(1.0, 1.3, angle, 5 * count), "shaft": _arc(0.5, 1.0, angle, 4 * count)}
+    return Model(
+        join(parts),
+        kind="plane strain",
+        bodies=[Body(name, _STEEL) for name in parts],
+        supports=[Support("shaft.inner", u=(0.0, 0.0))],
+        loads=[Load("ring.outer", traction=_spokes, name="drag"), Load("ring.outer", pressure=_lobes, name="lobes")],
+        contacts=[Contact("ring.inner", "shaft.outer", friction=0.2, interference=0.002)],
+        cyclic_symmetries=[]
+        if whole
+        else [CyclicSymmetry(f"{name}.start", f"{name}.end", sectors=SECTORS) for name in parts],
+        steps=[
+            Step(name="press", scale={"drag": 0.0, "lobes": 0.0}),
+            Step(name="drag", scale={"drag": 0.35, "lobes": 1.0}),
+        ],
+    )
+
+
 def _arc(inner: float, outer: float, angle: float, cells: int) -> Mesh:
     return annulus(inner=inner, outer=outer, n_radial=3, n_angular=cells, angle=angle, centre=(0.0, 0.0))
 
@@ -71,3 +98,9 @@ def _spokes(at: Array) -> Array:
     size = 0.02 + 0.01 * np.sin(SECTORS * angle) + 0.01 * np.cos(2 * SECTORS * angle)
     around: Array = size[:, None] * np.column_stack([-at[:, 1], at[:, 0]])
     return around
+
+
+def _lobes(at: Array) -> Array:
+    """A pressure on a few places around the axis, drawn elsewhere, (k,)."""
+    found: Array = 0.1 * np.sin(SECTORS * np.arctan2(at[:, 1], at[:, 0]) + 4.4)
+    return found

@@ -95,6 +95,7 @@ QUICK: tuple[Case, ...] = (
     rolling.tilted_block,
     bolts.stiffness_diagram,
     sectors.ring_and_sector,
+    sectors.contact_that_sectors_cut,
     fatigue.known_histories,
     fatigue.trailing_edge,
     vibration.frequencies,

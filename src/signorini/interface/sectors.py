@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts that the sides of a cyclic sector cut: pairs are those of the whole, their motions those of the sector."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.errors import InputError
+from signorini.fem.boundary import boundary
+from signorini.fem.cyclic import contacts_across
+from signorini.fem.neighbours import Neighbourhood, neighbourhood
+from signorini.fem.space import Space
+from signorini.fem.supports import Constraints
+from signorini.fem.varying import at_nodes
+from signorini.interface.interface import Interface, make_interface
+from signorini.model.contact import Contact
+from signorini.model.model import Model
+from signorini.model.obstacle import Obstacle
+from signorini.model.varying import NodeValues, Varying
+
+_SAME_OBSTACLE_TOL = 1e-9  # of the size of the mesh, or component of a unit vector
+
+
+def sector_interface(space: Space, model: Model, constraints: Constraints) -> Interface:
+    """Pair the surfaces of all contacts of a sector, as those of the whole that it repeats to.
+
+    Nodes of the second side of a sector are those of the first, turned: pairs of the first side stand for both. They
+    are made on the sector with a copy on either side, where ``u = R u_source``.
+
+    Parameters
+    ----------
+    space, model : of the bodies and their contacts
+    constraints : what supports hold: planes of symmetry
+
+    Raises
+    ------
+    InputError
+        As :func:`signorini.interface.interface.make_interface`; if a contact that a side cuts slides far, wears, or is
+        with an obstacle that is not the same in every sector.
+    """
+    across = contacts_across(space, model)
+    if not across:
+        return make_interface(space, model, constraints)
+    near = neighbourhood(space, model, constraints)
+    for i in across:
+        _refuse_other_obstacle(space, model, near, i)
+    contacts = [_repeated(space, near, contact, i) for i, contact in enumerate(model.contacts)]
+    found = make_interface(near.space, replace(near.model, contacts=contacts), near.constraints)
+    own = np.append(near.original, -1)[np.minimum(found.node, len(near.original))] == found.node
+    kept = found.among(own)
+    return replace(kept, B=sp.csr_array(kept.B @ near.shares), moments=found.moments[found.rows(own)])
+
+
+def _repeated(space: Space, near: Neighbourhood, contact: Contact, i: int) -> Contact:
+    """The contact with what varies over its sides in every sector as in this one."""
+
+    def everywhere(given: Varying | str, key: str) -> Varying | str:
+        if isinstance(given, float | int | str):
+            return given
+        values = np.zeros(len(space.mesh.points))
+        names = (contact.mortar, contact.nonmortar) if contact.side == "coarser" else (contact.nonmortar,)
+        for name in names:
+            if isinstance(name, str) and name in space.mesh.boundaries:
+                side = boundary(space, name, ("contact", i, "nonmortar"))
+                values[side.nodes] = at_nodes(given, space, side.nodes, ("contact", i, key), side)
+        return NodeValues(values[near.source])
+
+    parts: dict[str, Any] = {key: everywhere(getattr(contact, key), key) for key in ("gap", "interference")}
+    return replace(contact, **parts)
+
+
+def _refuse_other_obstacle(space: Space, model: Model, near: Neighbourhood, i: int) -> None:
+    """Obstacles of one sector are those of all only where their turned image is themselves."""
+    contact = model.contacts[i]
+    shapes = {obstacle.name: obstacle.shape for obstacle in model.obstacles}
+    shape = contact.mortar if isinstance(contact.mortar, Obstacle) else shapes.get(contact.mortar)
+    if shape is None:
+        return
+    nodes = space.mesh.nodes_of(contact.nonmortar)
+    second = nodes[near.original[nodes] != nodes]
+    points, size = space.mesh.points, float(np.ptp(space.mesh.points, axis=0).max())
+    (here, along), (there, turned) = (shape.nearest(points[own]) for own in (near.original[second], second))
+    off = np.abs(there - here) > _SAME_OBSTACLE_TOL * size
+    off |= np.abs(turned - along @ near.turn.T).max(axis=1) > _SAME_OBSTACLE_TOL
+    if off.any():
+        one, other = space.mesh.labels[[near.original[second][off][0], second[off][0]]]
+        raise InputError(
+            f"is reached where the sector is cut, at nodes {one} and {other}, and is not the same in every sector; "
+            "expected a surface of revolution about its axis, or a sector cut elsewhere",
+            where=("contact", i, "mortar"),
+        )
