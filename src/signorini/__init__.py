@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from signorini.deck import read
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
+    from signorini.inspection.check import check
     from signorini.law.closure import Closure
     from signorini.law.friction import TabularFriction
     from signorini.meshing.cut import cut
@@ -93,6 +94,7 @@ __all__ = [
     "__version__",
     "annulus",
     "box",
+    "check",
     "cut",
     "extruded",
     "fatigue",
@@ -120,6 +122,7 @@ __all__ = [
 _HOMES = {
     "signorini.api": ("Solution", "load", "solve"),
     "signorini.deck": ("read",),
+    "signorini.inspection.check": ("check",),
     "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
     "signorini.law.closure": ("Closure",),
     "signorini.law.friction": ("TabularFriction",),

@@ -20,6 +20,9 @@ class PreparedModel:
     def __init__(self, prepared: Prepared) -> None:
         self._prepared = prepared
 
+    def __repr__(self) -> str:
+        return f"PreparedModel({self._prepared.model.title or 'untitled'}, back end {self._prepared.backend})"
+
     def solve(
         self,
         *,

@@ -5,9 +5,14 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from signorini.doors import door
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _NAMED = 4  # of many things
 _MAX_VALUE = 120  # characters of one value
@@ -27,8 +32,22 @@ class Short:
 
     def __repr__(self) -> str:
         assert dataclasses.is_dataclass(self)
-        parts = (f"{field.name}={_said(getattr(self, field.name))}" for field in dataclasses.fields(self))
+        parts = (f"{field.name}={_said(getattr(self, field.name))}" for field in dataclasses.fields(self) if field.repr)
         return f"{type(self).__name__}({', '.join(parts)})"
+
+    def _repr_html_(self) -> str | None:
+        """A card in a notebook; None: there is none, and the words are shown."""
+        found: str | None = door("card")(self)
+        return found
+
+
+class Drawable(Short):
+    """A model: short, and drawn before it is solved."""
+
+    def plot(self) -> Figure:
+        """Draw the mesh, a colour a body, with the names of its boundaries, supports, loads and contacts."""
+        figure: Figure = door("draw_model")(self)
+        return figure
 
 
 def _said(value: Any) -> str:

@@ -18,12 +18,13 @@ from signorini.errors import InputError
 from signorini.friction.paper import PaperProblem, paper_problem
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
 from signorini.model.model import Model
+from signorini.short import Short
 from signorini.solution.certificate import Certificate, certify
 from signorini.solution.state import LoadPoint, initial_state, next_state
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PaperFormulation:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class PaperFormulation(Short):
     """The paper's LCP of a model: all loads at their final factors, one increment.
 
     Attributes
@@ -49,8 +50,8 @@ class PaperFormulation:
         return self.problem.q
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PaperAnswer:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class PaperAnswer(Short):
     """What the literal formulation gives, and how far it can be believed.
 
     Attributes

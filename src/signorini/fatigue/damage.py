@@ -11,12 +11,13 @@ from signorini.arrays import Array
 from signorini.fatigue.ball import smallest_balls
 from signorini.fatigue.criteria import SWT, Crossland, DangVan, FatemiSocie, FatigueCriterion, FatigueLimits, StrainLife
 from signorini.fatigue.planes import critical_planes, grid_of_planes
+from signorini.short import Short
 
 _LIFE_ROUNDS = 60  # Newton's steps for a life: some five are taken
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Damage:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Damage(Short):
     """What a criterion says at n points.
 
     Attributes

@@ -14,13 +14,14 @@ import numpy as np
 import scipy.linalg
 
 from signorini.arrays import Array
+from signorini.short import Short
 
 C = np.array([[1.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
 """``u_c^s = C lambda``: what the multipliers do to (u_tau, u_n); the paper's (16)."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PaperProblem:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class PaperProblem(Short):
     """``nu = M lambda + q``, ``nu >= 0``, ``lambda >= 0``, ``nu . lambda = 0``; multipliers pair by pair.
 
     Attributes

@@ -18,6 +18,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.checks import number
 from signorini.errors import InputError
+from signorini.short import Short
 
 _END = 7.0  # of the clearance, beyond where pressure begins: 4460 times the pressure at no gap; the last slope goes on
 _MOST_POINTS = 200  # of a curve: 0.001 of the pressure takes some 140
@@ -25,8 +26,8 @@ _SLOPE_ROUNDING = 1e-12  # of a slope
 _FLOOR = 0.01  # of the pressure where sides touch: errors are told of the pressure and that
 
 
-@dataclass(frozen=True)
-class Closure:
+@dataclass(frozen=True, repr=False)
+class Closure(Short):
     """Pressure over closure of what lies between two sides: a gasket, a coating, roughness.
 
     The closure is how far the sides have moved towards each other from where they touch, length. Between its points

@@ -21,6 +21,7 @@ from signorini.arrays import Array, BoolArray
 from signorini.checks import number
 from signorini.errors import InputError, Where
 from signorini.law.bound import MOST_BRANCHES, Bound, FrictionBound, JoinedBound
+from signorini.short import Short
 
 _SLOPE_ROUNDING = 1e-12  # of a coefficient: slopes of the friction that are one line
 
@@ -77,8 +78,8 @@ class FrictionLaw(ABC):
         return np.zeros(len(next(iter(parameters.values()))), dtype=np.bool_)
 
 
-@dataclass(frozen=True)
-class TabularFriction(FrictionLaw):
+@dataclass(frozen=True, repr=False)
+class TabularFriction(Short, FrictionLaw):
     """A coefficient that falls as the pressure grows: friction goes straight from point to point, and on as it ends.
 
     Parameters

@@ -18,6 +18,7 @@ from signorini.lcp.problem import LCP, read_problem
 from signorini.lcp.residual import Residual
 from signorini.lcp.solution import LCPSolution, Method, Status
 from signorini.lcp.solve import solve
+from signorini.short import Short
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,8 +78,8 @@ def eliminate_free(M: Any, q: Array, free: BoolArray) -> WithoutFree | None:
     return WithoutFree(M=reduced, q=q[c] - M_cf @ inverse(q[f]), free=free, rows=rows, right=q[f], inverse=inverse)
 
 
-@dataclass(frozen=True, kw_only=True)
-class BoxLCP:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class BoxLCP(Short):
     """Find ``lower <= z <= upper`` with w = M z + q >= 0 where z_i = lower_i, <= 0 where z_i = upper_i, else 0.
 
     Parameters
@@ -145,8 +146,8 @@ class BoxLCP:
         return problem, lower, upper
 
 
-@dataclass(frozen=True, kw_only=True)
-class MixedLCP:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class MixedLCP(Short):
     """Find z with w_i = 0 where z_i is free, and ``0 <= z_i  _|_  w_i >= 0`` elsewhere, w = M z + q.
 
     Parameters

@@ -17,6 +17,7 @@ from signorini.lcp.linear import factorised
 from signorini.lcp.problem import LCP, read_vector
 from signorini.lcp.solution import Attempt, Ray, Status
 from signorini.lcp.tableau import Equilibrated, Tableau, equilibrate
+from signorini.short import Short
 
 NOISE = 1e-14  # of the largest basic variable: less is rounding
 HIDDEN_TIE = 1e-6  # of its largest value: theta below it at the end of a path may be 0, hidden by a tie
@@ -27,8 +28,8 @@ AS_NEAR_AS_ROUNDING = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Lemke:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Lemke(Short):
     """Follow the solutions of ``w = M z + q + theta d`` from a large theta down to theta = 0.
 
     One of w_i, z_i is 0 for every i all along; the complement of the variable that left enters next. Ties in the ratio

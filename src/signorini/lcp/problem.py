@@ -15,12 +15,13 @@ from scipy.sparse.linalg import LinearOperator
 from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.lcp.residual import Matrix, Residual, Yardstick
+from signorini.short import Short
 
 LARGEST_DENSE = 30_000  # rows: 7 GB
 
 
-@dataclass(frozen=True, kw_only=True)
-class LCP:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class LCP(Short):
     """Find z with ``0 <= z  _|_  w = M z + q >= 0``.
 
     Attributes

@@ -77,8 +77,8 @@ class Ray(Short):
     slope: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class Attempt:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Attempt(Short):
     """The ending of one method.
 
     Attributes

@@ -13,6 +13,7 @@ from signorini.arrays import Array, frozen
 from signorini.checks import choice, components, number, text, vector
 from signorini.errors import InputError, Where
 from signorini.model.varying import ArcLength, NodeValues, Varying, varying
+from signorini.short import Short
 
 Place = str | tuple[float, ...]
 
@@ -95,8 +96,8 @@ class Foundation:
 Temperature = float | Array | Callable[[Array], Array]
 
 
-@dataclass(frozen=True, eq=False)
-class Load:
+@dataclass(frozen=True, eq=False, repr=False)
+class Load(Short):
     """A load on a boundary, a node set, a point or a body; exactly one of the kinds.
 
     Parameters

@@ -24,14 +24,14 @@ from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
-from signorini.short import Short
+from signorini.short import Drawable
 
 Kind = Literal["plane strain", "plane stress", "axisymmetric", "3d"]
 KINDS = ("plane strain", "plane stress", "axisymmetric", "3d")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Model(Short):
+class Model(Drawable):
     """A contact problem, checked for everything that can be checked without numerics.
 
     Parameters

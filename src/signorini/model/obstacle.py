@@ -15,6 +15,7 @@ from signorini.checks import number, vector
 from signorini.errors import InputError, spell_point
 from signorini.model.revolved import Cone, Cylinder, Torus
 from signorini.model.triangulated import Surface
+from signorini.short import Short
 
 
 @dataclass(frozen=True)
@@ -102,8 +103,8 @@ class Circle:
         return sign * (length - self.radius), sign * outward + 0.0
 
 
-@dataclass(frozen=True)
-class Profile:
+@dataclass(frozen=True, repr=False)
+class Profile(Short):
     """A rigid surface whose section is a line of straight pieces, sharp or rounded at its corners; plane.
 
     Parameters

@@ -13,10 +13,11 @@ import numpy as np
 from signorini.arrays import Array, frozen
 from signorini.checks import number, rows
 from signorini.errors import InputError, Where
+from signorini.short import Short
 
 
-@dataclass(frozen=True)
-class Plastic:
+@dataclass(frozen=True, repr=False)
+class Plastic(Short):
     """Von Mises' yield criterion with its associated flow, in small strain, the same at any rate.
 
     ``|xi| <= sqrt(2/3) Y(p)`` with ``xi = dev sigma - sum X_i`` and the equivalent plastic strain p; where the two are

@@ -12,6 +12,7 @@ from typing import Any, Literal
 from signorini.checks import choice, number, text, whole
 from signorini.errors import InputError
 from signorini.law.friction import coefficient
+from signorini.short import Short
 
 _MAX_COUNT = 1_000_000
 """Cycles, increments and times of a step: more of them have no meaning."""
@@ -19,8 +20,8 @@ _MAX_COUNT = 1_000_000
 Factors = float | tuple[float, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Step:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Step(Short):
     """A part of the load history: one straight segment, or several that may be repeated.
 
     Parameters

@@ -13,14 +13,15 @@ from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.checks import rows
 from signorini.errors import InputError, spell_point
 from signorini.model.boxes import BoxTree
+from signorini.short import Short
 
 _ON = 1e-12  # of the size of the surface: a point so near lies on it
 _HEIGHT_TOL = 1e-12  # height of a triangle without area, of its longest edge
 _BEHIND_COSINE = 0.5**0.5  # cosine: a point at the border is behind it if it lies within 45 degrees of its normal
 
 
-@dataclass(frozen=True, eq=False)
-class Surface:
+@dataclass(frozen=True, eq=False, repr=False)
+class Surface(Short):
     """A rigid surface of triangles in space, closed or open, the obstacle behind it.
 
     Beyond the border of an open surface there is no obstacle. Distances are exact for the triangles; those from a

@@ -15,12 +15,13 @@ import numpy as np
 from signorini.arrays import Array, IntArray, frozen
 from signorini.checks import choice, number, rows, text, vector
 from signorini.errors import InputError, Where
+from signorini.short import Short
 
 _AXES = {"x": 0, "r": 0, "y": 1, "z": 1}
 
 
-@dataclass(frozen=True)
-class Along:
+@dataclass(frozen=True, repr=False)
+class Along(Short):
     """Values at places on a coordinate axis: linear in between, constant beyond the first and the last.
 
     Parameters
@@ -179,8 +180,8 @@ class ArcLength:
         return np.interp(length, self.at, self.values)
 
 
-@dataclass(frozen=True, eq=False)
-class NodeValues:
+@dataclass(frozen=True, eq=False, repr=False)
+class NodeValues(Short):
     """Values at nodes, in between as displacements are.
 
     Parameters
@@ -211,8 +212,8 @@ class NodeValues:
         object.__setattr__(self, "nodes", frozen(numbers, np.int64))
 
 
-@dataclass(frozen=True, eq=False)
-class Scattered:
+@dataclass(frozen=True, eq=False, repr=False)
+class Scattered(Short):
     """Values at places, linear in simplices between them, beyond them those of the nearest.
 
     For what another program has computed on another mesh.

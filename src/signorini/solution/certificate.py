@@ -14,6 +14,7 @@ from signorini.fem.internal_forces import internal_forces
 from signorini.interface.interface import Interface
 from signorini.plasticity.measure import FlowViolation, violation
 from signorini.plasticity.state import PlasticState
+from signorini.short import Short
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.state import State
 
@@ -30,8 +31,8 @@ _MOST_ROUNDING = 1e-6  # of the data: where digits beyond are lost, of forces or
 _MAX_LENGTHS = 1e9  # lengths of the data: a body that has left is no solution
 
 
-@dataclass(frozen=True, kw_only=True)
-class Certificate:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Certificate(Short):
     """Violations of equilibrium and of the law of contact, dimensionless, 0 where satisfied.
 
     Attributes

@@ -6,11 +6,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from signorini.short import Short
 from signorini.solution.results import ContactResult
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class WellPosedness:
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class WellPosedness(Short):
     """Uniqueness of a frictional contact problem.
 
     Attributes
