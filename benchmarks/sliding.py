@@ -19,7 +19,7 @@ import numpy as np
 import signorini as sg
 from benchmarks import page
 from signorini.engine.prepare import prepare
-from signorini.engine.sliding import paired
+from signorini.engine.stride_pairs import paired
 from signorini.gallery.sliding import dragged_cylinder
 from signorini.interface.sliding import paired_at
 from signorini.linalg.registry import factorise

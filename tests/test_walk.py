@@ -19,7 +19,7 @@ FEATURES = {
     "elastic foundations": ["fem/foundation"],
     "obstacles that move": ["fem/obstacles", "model/rigid"],
     "bodies that turn": ["fem/turning_bodies", "fem/body_frames", "engine/turning"],
-    "contacts that slide far": ["interface/sliding", "engine/sliding", "engine/handing_over"],
+    "contacts that slide far": ["interface/sliding", "engine/sliding", "engine/handing_over", "engine/stride_pairs"],
     "closures": ["law/closure", "engine/closure_solver", "engine/closure_paths"],
     "wear": ["interface/worn_sides", "engine/wear_steps", "model/wear", "solution/wear_state"],
     "bodies that yield": [

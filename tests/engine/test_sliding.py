@@ -136,7 +136,7 @@ def test_what_a_dragged_wheel_sets_free_falls_with_the_third_power_of_strides(mo
     """A rigid wheel has no facets to hand over: what is left is the error of the trapezoidal rule."""
     freed = []
     for stride in (0.25, 0.125):
-        monkeypatch.setattr("signorini.engine.sliding._STRIDE", stride)
+        monkeypatch.setattr("signorini.engine.stride_pairs._STRIDE", stride)
         drag = sg.solve(wheel_on_bed(0.6, rolls=False)).steps[-1]
         normal, tangential = of_contact(drag.instants[-1])
         assert abs(tangential) == pytest.approx(0.3 * normal, rel=1e-12)

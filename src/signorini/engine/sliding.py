@@ -16,26 +16,21 @@ from dataclasses import dataclass, replace
 from math import ceil
 
 import numpy as np
-import scipy.sparse as sp
 
 from signorini.arrays import Array
 from signorini.engine.handing_over import Handover, supported, with_pairs
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, rubbing_of_work, set_loose
-from signorini.engine.solver import CondensedSolver
 from signorini.engine.step_parts import FollowedPart, StepPart, ending, joined, keep, reached
+from signorini.engine.stride_pairs import Pairing, paired, stride_of
 from signorini.engine.turning import first_share, refuse_turned, with_turned_loads
-from signorini.errors import InputError, Interrupted, SolveFailed
-from signorini.fem.boundary import boundary
-from signorini.interface.interface import Interface
-from signorini.interface.sliding import facing, paired_at, sliding_pairs
-from signorini.interface.worn_sides import worn_sides
+from signorini.errors import Interrupted, SolveFailed
+from signorini.interface.sliding import facing, sliding_pairs
 from signorini.law.states import OPEN
 from signorini.outcome import Outcome
 from signorini.solution.state import State, wear_of
 
-_STRIDE = 0.25  # of the shortest facet: how far sides slide before pairs are made anew
 _BENT = 2e-3  # of forces over the stiffness of the bodies: what gaps may differ in the middle of a stride
 _SHORTEST_MOVE = 0.125  # of a stride: what bodies move at least, however gaps bend
 _TURN = 0.1  # radians: what a body turns by in a stride at most, for loads keep their direction as it sees them
@@ -50,37 +45,6 @@ FOLLOWED = "pairs followed the bodies in"
 """What a part says that was followed in strides, and in how many."""
 
 Follow = Callable[[StepPart], FollowedPart]
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class _Pairing:
-    """Pairs of bodies at a displacement.
-
-    Attributes
-    ----------
-    interface : gaps are those of the bodies where they are
-    displacement : (dofs,) length
-    """
-
-    interface: Interface
-    displacement: Array
-
-    @staticmethod
-    def at(part: StepPart, displacement: Array) -> _Pairing:
-        """The pairs of bodies that have moved."""
-        prepared = part.prepared
-        model, space, constraints = prepared.model, prepared.space, prepared.constraints
-        try:
-            interface = paired_at(prepared.interface, space, model, constraints, prepared.frames, displacement)
-        except InputError as error:
-            words = f"{part.where} at {part.interval.low:.6%}: {error}"
-            raise SolveFailed(words, status=Outcome.NOT_FOUND) from error
-        return _Pairing(interface=interface, displacement=displacement)
-
-    def gap_before(self) -> Array:
-        """(n,) Gaps before anything moved, as these pairs see the motion since then."""
-        B = self.interface.B[: len(self.interface)]
-        return np.asarray(self.interface.gap - B @ self.displacement)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -103,7 +67,7 @@ class Stride:
     prepared: Prepared
     gaps: Array
     followed: FollowedPart
-    end: _Pairing
+    end: Pairing
     moved: Array
     slid: float
     changed: float
@@ -149,12 +113,12 @@ class _Walk:
         """(n,) What pairs feel of it there."""
         return 0.0 if prepared.wearing is None else np.asarray(prepared.wearing.gap @ self.depth(t))
 
-    def begin(self) -> _Pairing:
+    def begin(self) -> Pairing:
         """The pairs of where the bodies are before the first stride."""
         part, u = self.part, self.part.before.displacement
-        return _Pairing.at(part, u) if u.any() else _Pairing(interface=part.prepared.interface, displacement=u)
+        return Pairing.at(part, u) if u.any() else Pairing(interface=part.prepared.interface, displacement=u)
 
-    def stride(self, now: StepPart, last: Stride | None, begin: _Pairing, expected: Array) -> Stride:
+    def stride(self, now: StepPart, last: Stride | None, begin: Pairing, expected: Array) -> Stride:
         """One stride, with the pairs of its end as it is expected.
 
         Parameters
@@ -165,7 +129,7 @@ class _Walk:
         expected : (dofs,) displacement in it; none where nothing is known of it, and pairs are those of its beginning
         """
         u, interval = now.before.displacement, now.interval
-        end = _Pairing.at(now, u + expected) if expected.any() else begin
+        end = Pairing.at(now, u + expected) if expected.any() else begin
         prepared = with_turned_loads(paired(now.prepared, end.interface), end.displacement)
         begun = self.part.interval.within(interval.low) if interval.high > interval.low else 0.0
         done = self.part.interval.within(interval.high)
@@ -179,7 +143,7 @@ class _Walk:
         followed = self.followed(replace(now, prepared=prepared, before=before, end=point))
         moved = followed.after.displacement - u
         if not expected.any() and moved.any():
-            end = _Pairing.at(now, followed.after.displacement)
+            end = Pairing.at(now, followed.after.displacement)
         opened = np.where(own & ~self.lost.any(), point.gap - before.point.gap - (beyond[1] - beyond[0]), 0.0)
         seen_last = begin.interface if last is None else last.prepared.interface
         taken = handover.friction((seen_last.B - prepared.interface.B) @ moved)
@@ -233,7 +197,7 @@ class _Walk:
         """The end of the part with the pairs, and the loads, of where bodies are that have turned."""
         part, state = self.part, last.followed.after
         at_end = replace(part, interval=replace(part.interval, low=part.interval.high), before=state)
-        place = _Pairing.at(at_end, state.displacement)
+        place = Pairing.at(at_end, state.displacement)
         return self.stride(at_end, last, place, np.zeros_like(state.displacement))
 
     def worn(
@@ -342,36 +306,3 @@ def _finished(part: StepPart, strides: list[Stride]) -> FollowedPart:
         notes=notes,
         turned_at=strides[-1].end.displacement if part.prepared.frames else np.zeros(0),
     )
-
-
-def paired(prepared: Prepared, interface: Interface) -> Prepared:
-    """The model with other pairs; nothing sparse is factorised again.
-
-    Parameters
-    ----------
-    prepared : under the law of the moment
-    interface : with as many pairs, in the same order
-    """
-    B = sp.csr_array(interface.B @ prepared.constraints.transform)
-    condensed = prepared.paths.condensed.paired(B, interface, prepared.scale.stiffness)
-    if prepared.absent.any():
-        condensed = condensed.among(~prepared.absent)
-    elastic = CondensedSolver.of(condensed, interface, prepared.scale, prepared.settings)
-    solver = prepared.solver.paired(elastic, interface)
-    wearing = None if prepared.wearing is None else worn_sides(prepared.space, prepared.model, interface)
-    return replace(prepared, interface=interface, solver=solver, wearing=wearing)
-
-
-def stride_of(prepared: Prepared) -> float:
-    """How far sides slide at most before pairs are made anew, length."""
-    return _STRIDE * shortest_facet(prepared)
-
-
-def shortest_facet(prepared: Prepared) -> float:
-    """Of all contacts that slide far, length."""
-    lengths = []
-    for i, contact in enumerate(prepared.model.contacts):
-        if contact.slides:
-            sides = contact.meshed_sides(prepared.model.mesh)
-            lengths += [float(boundary(prepared.space, side, ("contact", i)).lengths.min()) for side in sides]
-    return min(lengths)

@@ -19,7 +19,8 @@ from signorini.engine.path_states import balanced, path_state, recovered
 from signorini.engine.prepare import Prepared
 from signorini.engine.recurring_strides import Link, StridePairs, Track
 from signorini.engine.rubbing import Rubbing, rubbed, rubbing_of_segment
-from signorini.engine.sliding import Stride, stride_of
+from signorini.engine.sliding import Stride
+from signorini.engine.stride_pairs import stride_of
 from signorini.engine.wear_paths import FollowedCycle, PathCycle
 from signorini.friction.history import PathSettings, Segment
 from signorini.interface.worn_sides import WornSides
