@@ -37,9 +37,7 @@ def expected(model: sg.Model, step: StepResult) -> dict[str, Values]:
     contact = np.zeros((len(model.mesh.points), 6))
     for data, result in zip(model.contacts, step.contacts, strict=True):
         contact[result.node] = slave_values(data, result)
-    parts = list(
-        body_stresses(make_space(model.mesh, axisymmetric=model.axisymmetric), model, step.displacement, step.factors)
-    )
+    parts = list(body_stresses(make_space(model.mesh, kind=model.kind), model, step.displacement, step.factors))
     stress, count = np.zeros((len(model.mesh.points), 6)), np.zeros((len(model.mesh.points), 1))
     for part in parts:
         stress[part.nodes] += part.stress

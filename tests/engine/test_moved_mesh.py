@@ -50,7 +50,7 @@ def rubbed_block(
 
 def volume_of(model: sg.Model, places: np.ndarray) -> float:
     mesh = replace(model.mesh, points=places)
-    return float(sum(v.sum() for v in make_space(mesh, axisymmetric=model.axisymmetric).volumes))
+    return float(sum(v.sum() for v in make_space(mesh, kind=model.kind).volumes))
 
 
 @pytest.mark.slow

@@ -32,7 +32,7 @@ def model_of(mesh, kind="plane strain", formulation="standard", **parts):
 
 
 def space_of(model):
-    return make_space(model.mesh, axisymmetric=model.axisymmetric)
+    return make_space(model.mesh, kind=model.kind)
 
 
 @pytest.mark.parametrize(
@@ -260,6 +260,6 @@ def test_middle_nodes_of_boundaries():
 
 def test_negative_radii():
     with pytest.raises(InputError, match=r"node \d+ has the radius -1; expected x = r >= 0"):
-        make_space(rectangle(width=2.0, nx=2, origin=(-1.0, 0.0)), axisymmetric=True)
+        make_space(rectangle(width=2.0, nx=2, origin=(-1.0, 0.0)), kind="axisymmetric")
     with pytest.raises(InputError, match=r"thickness: is 2; an axisymmetric model has none"):
         model_of(rectangle(), "axisymmetric", thickness=2.0)

@@ -19,7 +19,7 @@ def errors(model, reference):
     r = points[:, 0] if reference is thick_cylinder else np.linalg.norm(points, axis=1)
     outward = np.tile([1.0, 0.0], (len(r), 1)) if reference is thick_cylinder else points / r[:, None]
     exact, radial, hoop = reference(r, **WALL)
-    (found,) = body_stresses(make_space(model.mesh, axisymmetric=True), model, u)
+    (found,) = body_stresses(make_space(model.mesh, kind="axisymmetric"), model, u)
     plane = np.stack([found.stress[:, [0, 3]], found.stress[:, [3, 1]]], axis=1)
     inside = (r > 1.2) & (r < 1.8)
     normal = np.einsum("ni,nij,nj->n", outward, plane, outward)
@@ -56,7 +56,7 @@ def test_a_cylinder_on_a_plane(family, friction):
     bearing = contact.area > 1e-12
     np.testing.assert_allclose(contact.pressure[bearing], 5.0, rtol=1e-9)
     np.testing.assert_allclose(contact.normal_force, [0.0, np.pi * 5.0], atol=1e-9)
-    (stress,) = body_stresses(make_space(model.mesh, axisymmetric=True), model, history.last.displacement)
+    (stress,) = body_stresses(make_space(model.mesh, kind="axisymmetric"), model, history.last.displacement)
     np.testing.assert_allclose(stress.stress, np.tile([0, -5.0, 0, 0, 0, 0], (len(stress.nodes), 1)), atol=1e-9)
     assert np.abs(history.last.displacement[model.mesh.points[:, 0] == 0, 0]).max() == 0.0
 

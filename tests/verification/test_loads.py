@@ -19,7 +19,7 @@ KINDS = ("plane strain", "plane stress", "axisymmetric")
 
 def stresses(history):
     model = history.model
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    space = make_space(model.mesh, kind=model.kind)
     return body_stresses(space, model, history.last.displacement, history.last.factors)
 
 

@@ -105,7 +105,7 @@ def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mech
     part = _first_beyond(parts, before + (after - before) * parts - taken)
     if part is None or elastic > _MAX_ELASTIC * float(np.interp(part, parts, taken)):
         return None
-    motion = v[: prepared.model.dimension * len(prepared.model.mesh.points)].reshape(-1, prepared.model.dimension)
+    motion = prepared.space.at_nodes(v)
     return Collapse(part=part, motion=frozen(motion / (np.abs(motion).max() or 1.0)), rubs=rubs)
 
 

@@ -85,7 +85,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     refuse_same_contacts(model, schedule)
     carriers = len(model.obstacles) + len(model.rigid_bodies)
     linked = linked_nodes(model) if model.couples else None
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked)
+    space = make_space(model.mesh, kind=model.kind, obstacles=carriers, linked=linked)
     first, sometimes = schedule[0].released, schedule[-1].loosened
     constraints = make_constraints(space, model, without=first)
     always = make_constraints(space, model, without=sometimes) if sometimes != first else constraints
@@ -182,7 +182,7 @@ def refuse_free_motions(
     InputError
         If a part can move: with its motion.
     """
-    dofs = space.dofs(np.unique(interface.B.indices // space.dimension)).ravel()
+    dofs = space.dofs(np.unique(interface.B.indices // space.components)).ravel()
     touching = sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), (len(dofs), space.number_of_dofs))
     free = free_motions(motions, constraints, touching)
     if free.shape[1]:

@@ -27,7 +27,7 @@ from signorini.solution.stress_history import StressHistory
 def with_fatigue(history: History) -> History:
     """A history with what the criteria say that its model asks for; a note where one cannot be answered."""
     model = history.model
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    space = make_space(model.mesh, kind=model.kind)
     found, notes = [], []
     for i, request in enumerate(model.fatigue):
         try:
@@ -53,7 +53,7 @@ def assess_fatigue(history: History, request: Fatigue, space: Space | None = Non
         For unknown names, and where displacements on the way were not kept and do not follow from what was.
     """
     model = history.model
-    space = space or make_space(model.mesh, axisymmetric=model.axisymmetric)
+    space = space or make_space(model.mesh, kind=model.kind)
     steps = tuple(request.steps)
     if isinstance(request.criterion, Ruiz):
         probe, points, tangents = _on_contacts(space, model, request, history)

@@ -124,9 +124,9 @@ def _alike(prepared: Prepared, motions: Array) -> Array:
     space, volumes = prepared.space, nodal_volumes(prepared.space, prepared.model)
     everything = float(volumes.sum())
     weights = np.full(space.number_of_dofs, _BARE_VOLUME * everything)
-    weights[: space.mesh.points.size] = np.where(
-        np.repeat(space.used, space.dimension),
-        np.repeat(volumes, space.dimension),
+    weights[: space.dofs_of_nodes] = np.where(
+        np.repeat(space.used, space.components),
+        np.repeat(volumes, space.components),
         _BARE_VOLUME * everything,
     )
     resisted = motions.T @ (prepared.motions.T @ (weights[:, None] * (prepared.motions @ motions)))

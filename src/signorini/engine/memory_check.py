@@ -42,12 +42,12 @@ def refuse_unassembled(model: Model) -> None:
         With the least that it takes and what there is.
     """
     entries = sum(
-        _SHARED.get(family, _SHARED_ELSE) * cells.shape[0] * (cells.shape[1] * model.dimension) ** 2
+        _SHARED.get(family, _SHARED_ELSE) * cells.shape[0] * (cells.shape[1] * model.components) ** 2
         for family, cells in model.mesh.cells.items()
     )
     asked, room = _ASSEMBLY * entries, available_memory()
     if asked > room:
-        unknowns = model.mesh.points.size
+        unknowns = model.number_of_dofs
         raise InputError(
             f"the stiffness of {unknowns} unknowns takes at least {_size(asked)}, and {_size(room)} of memory are "
             "free; expected a coarser mesh, or more memory"
@@ -132,7 +132,7 @@ def refuse_fields(model: Model) -> None:
     InputError
         The first step whose times are too many, with how many there is room for.
     """
-    each = 8 * model.mesh.points.size
+    each = 8 * model.number_of_dofs
     room = max(int(_SHARE * available_memory() / each) - len(model.steps), 0)
     left = room
     for i, step in enumerate(model.steps):

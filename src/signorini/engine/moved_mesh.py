@@ -102,7 +102,7 @@ def on_worn_mesh(now: Prepared, taken: Array) -> Prepared:
 def _examined(now: Prepared, model: Model) -> Examined:
     """All that a mesh decides, under the supports and the law of the moment."""
     carriers = len(model.obstacles) + len(model.rigid_bodies)
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=now.space.linked)
+    space = make_space(model.mesh, kind=model.kind, obstacles=carriers, linked=now.space.linked)
     constraints = _times(make_constraints(space, model, without=now.released), now)
     always = make_constraints(space, model, without=list(stages(model))[-1].loosened)
     found = make_interface(space, model, always)

@@ -172,7 +172,7 @@ def make_multipliers(
     InputError
         If a section of the friction cone is no circle.
     """
-    T, d, interface = examined.constraints.transform, examined.space.dimension, examined.interface
+    T, d, interface = examined.constraints.transform, examined.space.components, examined.interface
     if interface.facets.any() or (interface.anisotropy != 1.0).any():
         i = int(interface.contact[np.argmax((interface.facets > 0) | (interface.anisotropy != 1.0).any(axis=1))])
         raise InputError(

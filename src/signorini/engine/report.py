@@ -156,11 +156,11 @@ def _plastic(before: State, state: State, *, whole: bool) -> PlasticResult | Non
 
 def _reactions(prepared: Prepared, state: State, held: Array) -> dict[str, Array]:
     """Forces of supports, (dofs,) all together, and elastic foundations on the bodies, by name."""
-    model, owner, d = prepared.model, prepared.constraints.owner, prepared.model.dimension
+    model, owner, d = prepared.model, prepared.constraints.owner, prepared.model.components
     rigid = {body.name: j for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))}
     own = np.flatnonzero(owner >= 0)
-    total = np.zeros((len(model.supports), d))
-    np.add.at(total, (owner[own], own % d), held[own])
+    total, arms = np.zeros((len(model.supports), d)), _arms(prepared)
+    np.add.at(total, (owner[own], own % d), held[own] * arms[own])
     forces = {}
     for i, support in enumerate(model.supports):
         forces[support.label] = frozen(total[i])
@@ -168,8 +168,16 @@ def _reactions(prepared: Prepared, state: State, held: Array) -> dict[str, Array
             dofs, size = _rigid_dofs(prepared, j)
             forces[support.label] = frozen(np.where(owner[dofs] == i, held[dofs] * size, 0.0))
     for name, S in prepared.constraints.springs.items():
-        forces[name] = frozen(-(S.T @ (S @ state.displacement)).reshape(-1, d).sum(axis=0))
+        forces[name] = frozen(-(S.T @ (S @ state.displacement) * arms).reshape(-1, d).sum(axis=0))
     return forces
+
+
+def _arms(prepared: Prepared) -> Array:
+    """(dofs,) What forces are multiplied by in resultants: 1, along the hoop the radius, which makes a torque."""
+    arms = np.ones(prepared.space.number_of_dofs)
+    if prepared.model.twists:
+        prepared.space.at_nodes(arms)[:, 2] = prepared.space.mesh.points[:, 0]
+    return arms
 
 
 def _rigid_dofs(prepared: Prepared, j: int) -> tuple[IntArray, Array]:
@@ -192,7 +200,7 @@ def _external(prepared: Prepared, state: State, loads: Array, held: Array) -> Ar
     loose = prepared.space.loose_nodes
     for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles)):
         here = loose[(model.mesh.points[loose] == np.array(body.point)).all(axis=1)]
-        at_nodes[here[:1]] += force[_rigid_dofs(prepared, j)[0][: model.dimension]]
+        at_nodes[here[:1], : model.dimension] += force[_rigid_dofs(prepared, j)[0][: model.dimension]]
     return at_nodes
 
 

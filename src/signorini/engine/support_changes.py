@@ -59,7 +59,7 @@ def refuse_moved(prepared: Prepared, state: State) -> None:
     if off.max(initial=0.0) <= _PLACE_TOL * max(np.abs(u).max(initial=0.0), np.abs(imposed).max(initial=0.0)):
         return
     dof = int(np.argmax(off))
-    model, (node, axis) = prepared.model, divmod(dof, prepared.model.dimension)
+    model, (node, axis) = prepared.model, divmod(dof, prepared.model.components)
     of_mesh = node < len(model.mesh.points)
     at = f"node {model.mesh.labels[node]}" if of_mesh else "an obstacle or rigid body"
     owner = constraints.owner[dof]

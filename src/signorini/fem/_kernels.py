@@ -99,7 +99,7 @@ class Cells(NamedTuple):
     material : (M,) which of the laws is each element's, or one number
     measure : (M, nq), (M, 1) or one number, what a point of the plane stands for: thickness or circumference, length
     shape_values : (nq, k) the shape functions themselves; axisymmetric bodies need them: ``N_a / r`` joins the
-        gradients as a further component
+        gradients as a further component, and with twist ``d_r N_a - N_a / r``
     modes : (M, nq, k', e) gradients of internal modes of each element, which are eliminated
     pressures : (nq, p) functions that the dilatation of every element without modes is projected on; with none it stays
     """
@@ -119,14 +119,16 @@ class Laws(NamedTuple):
 
     Attributes
     ----------
-    entries : (t, 3) directions r and s of the stiffness, as ``d r + s``, and the two components
+    entries : (t, 3) directions r and s of the stiffness, as ``c r + s``, and the two components
     values : (n, t) force / length^2
     bulk : (n,) moduli for the projection on pressures
+    components : c of a displacement
     """
 
     entries: IntArray
     values: Array
     bulk: Array
+    components: int
 
 
 class SparsityPattern(NamedTuple):
@@ -152,18 +154,17 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
     pattern : added to
     """
     cells, gradients, weights, material, measure, values, modes, pressures = elements
-    entries, law, bulk = laws
+    entries, law, bulk, c = laws
     rows, columns, data = pattern
     nodes, d = cells.shape[1], points.shape[1]
-    ring, inner = len(values) > 0, modes.shape[2]
-    e = d + 1 if ring else d
+    ring, inner, e = len(values) > 0, modes.shape[2], modes.shape[3]
     every = nodes + inner
     C = np.empty((every * e, every * e))
-    K = np.empty((every * d, every * d))
+    K = np.empty((every * c, every * c))
     g = np.empty(every * e)
     x = np.empty((nodes, d))
     J, I = np.eye(3), np.empty((3, 3))  # noqa: E741
-    divergence, volume = np.empty((len(weights), nodes * d)), np.empty(len(weights))
+    divergence, volume = np.zeros((len(weights), nodes * c)), np.empty(len(weights))
     for t in range(len(cells)):
         for a in range(nodes):
             for r in range(d):
@@ -184,6 +185,8 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
                     return t, 2
                 for a in range(nodes):
                     g[a * e + d] = values[q, a] / radius
+                    if e > d + 1:
+                        g[a * e + d + 1] = g[a * e] - g[a * e + d]
             for a in range(inner):
                 for i in range(e):
                     g[(nodes + a) * e + i] = modes[t, q, a, i]
@@ -191,18 +194,18 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
             volume[q] = w
             for a in range(nodes):
                 for r in range(d):
-                    divergence[q, a * d + r] = g[a * e + r]
+                    divergence[q, a * c + r] = g[a * e + r]
                 if ring:
-                    divergence[q, a * d] += g[a * e + d]
+                    divergence[q, a * c] += g[a * e + d]
             for i in range(every * e):
                 wg = w * g[i]
                 for j in range(every * e):
                     C[i, j] += wg * g[j]
-        _combine(C, every, d, e, entries, law[material[t]], K)
-        _eliminate(K, nodes * d)
+        _combine(C, every, c, e, entries, law[material[t]], K)
+        _eliminate(K, nodes * c)
         if pressures.shape[1]:
             _project(K, divergence, volume, pressures, bulk[material[t]])
-        scatter(K, cells[t], d, rows, columns, data)
+        scatter(K, cells[t], c, rows, columns, data)
     return -1, 0
 
 

@@ -3,9 +3,10 @@
 
     K_(a r)(b s) = sum_e int_e  c_risj d_i N_a d_j N_b
 
-The unknown of node a and component r is ``d a + r``, which is the numbering of scikit-fem's `ElementVector`. Geometry
-and displacement share the shape functions (isoparametric elements); an element whose edges are straight has its
-higher nodes on them. SparsityPattern and values are written once, in rows; no list of all element entries ever exists.
+The unknown of node a and component r of c is ``c a + r``, which is the numbering of scikit-fem's `ElementVector`.
+Geometry and displacement share the shape functions (isoparametric elements); an element whose edges are straight has
+its higher nodes on them. SparsityPattern and values are written once, in rows; no list of all element entries ever
+exists.
 """
 
 from __future__ import annotations
@@ -35,13 +36,13 @@ def stiffness(
     ----------
     points : (N, d) coordinates of the nodes, length; axisymmetric: (radius, height)
     blocks : the elements, one block per kind; all share the numbering of the nodes
-    law : (n, d, e, d, e) c_risj of the materials, force / length^2, see :func:`signorini.fem.elasticity.law_tensor`
+    law : (n, c, e, c, e) c_risj of the materials, force / length^2, see :func:`signorini.fem.elasticity.law_tensor`
     bulk : (n,) bulk moduli of the materials, force / length^2, for what is projected on pressures
-    axisymmetric : with the hoop strain u_r / r
+    axisymmetric : with the hoop strain u_r / r; c = 3 where bodies twist
 
     Returns
     -------
-    (d N, d N) csr_array, symmetric, both triangles, sorted int32 indices; nodes without elements have empty rows
+    (c N, c N) csr_array, symmetric, both triangles, sorted int32 indices; nodes without elements have empty rows
 
     Raises
     ------
@@ -70,17 +71,20 @@ def stiffness(
     sizes = np.concatenate([np.zeros(1, dtype=np.int64), *[np.full(len(c), c.shape[1]) for c in nodes]])
     flat = np.concatenate([c.ravel() for c in nodes]) if nodes else np.empty(0, dtype=np.int32)
     rows, columns = _kernels.node_pattern(np.cumsum(sizes), flat, count)
-    if len(columns) * d * d >= 2**31:
-        raise InputError(f"the stiffness matrix would have {len(columns) * d * d} entries; expected fewer than 2^31")
-    indptr, indices = _kernels.unknown_pattern(rows, columns, d)
-    data, e = np.zeros(len(indices)), d + 1 if axisymmetric else d
-    if law.ndim != 5 or law.shape[1:] != (d, e, d, e):
-        raise InputError(f"law has shape {law.shape}; expected (n, {d}, {e}, {d}, {e})")
+    twists = axisymmetric and law.shape[1] > d
+    c, e = (3, 4) if twists else (d, d + 1 if axisymmetric else d)
+    if len(columns) * c * c >= 2**31:
+        raise InputError(f"the stiffness matrix would have {len(columns) * c * c} entries; expected fewer than 2^31")
+    indptr, indices = _kernels.unknown_pattern(rows, columns, c)
+    data = np.zeros(len(indices))
+    if law.ndim != 5 or law.shape[1:] != (c, e, c, e):
+        raise InputError(f"law has shape {law.shape}; expected (n, {c}, {e}, {c}, {e})")
     entries = np.argwhere((law != 0.0).any(axis=0))
     laws = _kernels.Laws(
-        np.column_stack([entries[:, 0] * d + entries[:, 2], entries[:, 1], entries[:, 3]]).astype(np.uint32),
+        np.column_stack([entries[:, 0] * c + entries[:, 2], entries[:, 1], entries[:, 3]]).astype(np.uint32),
         np.ascontiguousarray(law[:, *entries.T]),
         np.asarray(bulk, dtype=np.float64),
+        c,
     )
     pattern = _kernels.SparsityPattern(rows, columns, data)
     for number, (block, cells) in enumerate(zip(blocks, nodes, strict=True)):
@@ -98,7 +102,7 @@ def stiffness(
         element, wrong = _kernels.add_block(points, made, laws, pattern)
         if wrong:
             raise InputError(_complaint(element, number, wrong, points[cells[element]]))
-    return sparse.csr_array((data, indices, indptr), shape=(count * d, count * d))
+    return sparse.csr_array((data, indices, indptr), shape=(count * c, count * c))
 
 
 def _nodes(block: Cells, points: Array, number: int) -> Int32Array:

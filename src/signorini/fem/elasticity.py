@@ -8,12 +8,17 @@ from math import cos, radians, sin
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.model.kind import axes
 from signorini.model.material import Elastic, Material, Orthotropic
 from signorini.model.model import Model
 
-COMPONENTS = {2: np.array([[0, 3, 2], [3, 1, -1]]), 3: np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])}
-"""By the dimension of space: of the strain, which part the derivative j of displacement i is, -1 of none; in the plane
-``u_i / r`` is a third derivative."""
+_PLANE = np.array([[0, 3], [3, 1]])
+_SPACE = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
+_RING = np.array([[0, 3, 2], [3, 1, -1]])
+_TWIST = np.array([[0, 3, 2, -1], [3, 1, -1, -1], [-1, 4, -1, 5]])
+STRAIN_PARTS = {parts.shape: parts for parts in (_PLANE, _RING, _TWIST, _SPACE)}
+"""By the numbers of displacements and derivatives: of the strain, which part the derivative j of displacement i is, -1
+of none. In bodies of revolution ``u_i / r`` is a third derivative, with twist ``d_r u_i - u_i / r`` a fourth."""
 
 
 def isotropic(lame: float, shear: float) -> Array:
@@ -31,7 +36,7 @@ def isotropic(lame: float, shear: float) -> Array:
 
 
 def elasticity(material: Material, kind: str) -> Array:
-    """Stress xx, yy, zz, xy from strain, (4, 4), force per area; in space yz and xz too, (6, 6).
+    """Stress xx, yy, zz, xy from strain, (4, 4), force per area; in space, and with twist, yz and xz too, (6, 6).
 
     Plane stress: zz has a zero row and column, what it adds to the others is condensed.
     """
@@ -41,7 +46,7 @@ def elasticity(material: Material, kind: str) -> Array:
     else:
         stiff = np.asarray(np.linalg.inv(_compliance(material)), np.float64)
         D = _rotated_stiffness(stiff, material.angle)
-    if kind == "3d":
+    if len(axes(kind)) == 3:
         return D
     D = D[:4, :4]
     if kind == "plane stress":
@@ -60,29 +65,31 @@ def expansion(material: Material) -> Array:
 
 
 def elasticities(model: Model) -> Array:
-    """Of every body, (bodies, 4, 4), in space (bodies, 6, 6)."""
+    """Of every body, (bodies, 4, 4), in space and with twist (bodies, 6, 6)."""
     return np.array([elasticity(body.material, model.kind) for body in model.bodies])
 
 
 def expansions(model: Model) -> Array:
-    """Of every body, (bodies, 4), in space (bodies, 6)."""
-    components = 4 if model.dimension == 2 else 6
-    return np.array([expansion(body.material)[:components] for body in model.bodies])
+    """Of every body, (bodies, 4), in space and with twist (bodies, 6)."""
+    parts = 4 if model.components == 2 else 6
+    return np.array([expansion(body.material)[:parts] for body in model.bodies])
 
 
-def law_tensor(D: Array, *, hoop: bool = False) -> Array:
+def law_tensor(D: Array, *, hoop: bool = False, twist: bool = False) -> Array:
     """The law on displacement gradients: what multiplies ``d_i N_a d_j N_b`` in the stiffness of (a, r) and (b, s).
 
     Parameters
     ----------
     D : (n, 4, 4) of the plane or (n, 6, 6) of space
     hoop : a further "derivative" ``N / r`` of the first component: axisymmetric
+    twist : and ``d_r N - N / r`` of a third component
 
     Returns
     -------
-    (n, d, e, d, e), indices material, r, i, s, j; e = d, with the hoop d + 1
+    (n, c, e, c, e), indices material, r, i, s, j; e = c, with the hoop c + 1
     """
-    at = COMPONENTS[3] if D.shape[-1] == 6 else COMPONENTS[2][:, : 3 if hoop else 2]
+    plane = _RING if hoop else _PLANE
+    at = _TWIST if twist else _SPACE if D.shape[-1] == 6 else plane
     flat = at.ravel()
     law = D[:, flat][:, :, flat] * np.outer(flat >= 0, flat >= 0)
     return np.asarray(law.reshape(len(D), *at.shape, *at.shape))

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array, IntArray, among
-from signorini.fem.elasticity import COMPONENTS
+from signorini.fem.elasticity import STRAIN_PARTS
 from signorini.fem.jacobian import determinants, gradients_in_space, jacobians
 from signorini.fem.links import rigid_nodes
 from signorini.fem.measure import measure
@@ -56,7 +56,8 @@ class Kinematics:
 
     Attributes
     ----------
-    gradients : (m, q, k + modes, e) in space; the third component, if any, is the shape function over the radius
+    gradients : (m, q, k + modes, e) in space; of bodies of revolution the third one is the shape function over the
+        radius, with twist the fourth the first less the third
     values : (q, k) shape functions of the nodes
     weights : (m, q) volume of each point
     nodes : k
@@ -75,14 +76,14 @@ class Kinematics:
         g = self.gradients[:, :, : u.shape[1]]
         slope = np.einsum("mqai,maj->mqji", g, u)
         strain = np.zeros((*slope.shape[:2], 4 if u.shape[2] == 2 else 6))
-        for (i, j), part in np.ndenumerate(COMPONENTS[u.shape[2]][:, : g.shape[-1]]):
+        for (i, j), part in np.ndenumerate(STRAIN_PARTS[u.shape[2], g.shape[-1]]):
             if part >= 0:
                 strain[..., part] += slope[..., i, j]
         return strain
 
     def forces(self, stress: Array) -> Array:
         """``int B^T sigma`` on nodes and modes, (m, k + modes, d), of stresses (m, q, 4 or 6)."""
-        at = COMPONENTS[3 if stress.shape[2] == 6 else 2][:, : self.gradients.shape[-1]]
+        at = STRAIN_PARTS[3 if stress.shape[2] == 6 else 2, self.gradients.shape[-1]]
         tensor = np.where(at >= 0, stress[..., at], 0.0) * self.weights[..., None, None]
         return np.einsum("mqaj,mqij->mai", self.gradients, tensor)
 
@@ -170,7 +171,7 @@ def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) 
     gradients = gradients_in_space(bent, reference)
     at = np.einsum("qk,mki->mqi", values, points)
     if model.axisymmetric:
-        gradients = np.concatenate([gradients, (values / at[..., :1])[..., None]], axis=-1)
+        gradients = _revolved(gradients, values / at[..., :1], twists=model.twists)
     weights = np.abs(determinants(bent)) * measure(model, at, group.numbers)
     weights = weights * (1.0 / len(values) if best else block.weights)
     if group.formulation == "incompatible":
@@ -205,5 +206,13 @@ def mode_gradients(space: Space, model: Model, group: Group) -> Array:
     weights = np.abs(volume) * measure(model, at, group.numbers)
     modes -= np.einsum("mq,mqpi->mpi", weights, modes)[:, None] / weights.sum(axis=1)[:, None, None, None]
     if model.axisymmetric:
-        modes = np.concatenate([modes, np.zeros((*modes.shape[:3], 1))], axis=-1)
+        modes = _revolved(modes, np.zeros(modes.shape[:3]), twists=model.twists)
     return modes
+
+
+def _revolved(gradients: Array, over_radius: Array, *, twists: bool) -> Array:
+    """Gradients (m, q, k, 2) with functions over the radius (m, q, k) as a third, and ``d_r N - N / r`` as a fourth."""
+    parts = [gradients, over_radius[..., None]]
+    if twists:
+        parts.append((gradients[..., 0] - over_radius)[..., None])
+    return np.concatenate(parts, axis=-1)

@@ -98,7 +98,7 @@ def _equation(space: Space, model: Model, i: int, equation: Equation) -> tuple[I
     columns = []
     for k, (on, axis, _) in enumerate(equation.terms):
         dofs = place_dofs(space, model, on, (*where, k))
-        known = directions(space.dimension) if on in names else AXES[: space.dimension]
+        known = directions(space.dimension) if on in names else AXES[: space.components]
         if axis not in known:
             raise InputError(f"'{axis}' is no direction here; expected one of {', '.join(known)}", where=(*where, k))
         columns.append(dofs[:, known.index(axis)])

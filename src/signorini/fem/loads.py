@@ -36,7 +36,7 @@ def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
         size = np.where(np.arange(len(dofs)) < space.dimension, 1.0, arm(model))  # dofs of rotations are lengths
         forces[dofs] = _given(load.force) / size
     else:
-        forces[: space.mesh.points.size] = _on_mesh(space, model, load, where)
+        forces[: space.dofs_of_nodes] = _on_mesh(space, model, load, where)
     return forces
 
 
@@ -45,7 +45,9 @@ def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
         return thermal_forces(space, model, load)
     if load.kind in BODY_LOADS:
         return _body_forces(space, model, load)
-    forces = np.zeros((len(space.mesh.points), space.dimension))
+    if load.torque is not None:
+        return _torque(space, model, load, where)
+    forces = np.zeros((len(space.mesh.points), space.components))
     if load.nodal_forces is not None or (load.force is not None and load.on not in space.mesh.boundaries):
         nodes = nodes_at(space, load.on, (*where, "on"), completed=load.force is not None)
         forces[nodes] = _given(load.force) / len(nodes) if load.force is not None else load.nodal_forces
@@ -67,7 +69,27 @@ def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
         else:
             tractions = _tractions(space, load, side, (*where, "traction"))
         parts = [area * traction for area, traction in zip(areas, tractions, strict=True)]
-    forces[side.nodes] = side.nodal(parts)
+    nodal = side.nodal(parts)
+    forces[side.nodes, : nodal.shape[1]] = nodal
+    return forces.ravel()
+
+
+def _torque(space: Space, model: Model, load: Load, where: Where) -> Array:
+    """Forces along the hoop that grow with the radius: tractions on a boundary, forces on the nodes of a set."""
+    forces = np.zeros((len(space.mesh.points), space.components))
+    if load.on in space.mesh.boundaries:
+        side = boundary(space, str(load.on), (*where, "on"))
+        arms = [facet_areas(model, block) * block.at[..., 0] for block in side.blocks]
+        nodes, shares = side.nodes, side.nodal(arms)
+        lever = sum(float((arm * block.at[..., 0]).sum()) for arm, block in zip(arms, side.blocks, strict=True))
+    else:
+        nodes = nodes_at(space, load.on, (*where, "on"))
+        shares = space.mesh.points[nodes, 0]
+        lever = float(shares @ shares)
+    if not lever > 0.0:
+        raise InputError("acts on the axis; expected a place with a radius", where=(*where, "torque"))
+    assert load.torque is not None
+    forces[nodes, 2] = load.torque / lever * shares
     return forces.ravel()
 
 
@@ -75,7 +97,7 @@ def _tractions(space: Space, load: Load, side: Boundary, where: Where) -> list[A
     """At the quadrature points of every block of facets, (m, q, d)."""
     if callable(load.traction):
         given = load.traction
-        columns: list[Varying] = [partial(_column, given, i) for i in range(side.dimension)]
+        columns: list[Varying] = [partial(_column, given, i, space.components) for i in range(space.components)]
     else:
         assert load.traction is not None
         columns = list(load.traction)
@@ -83,10 +105,10 @@ def _tractions(space: Space, load: Load, side: Boundary, where: Where) -> list[A
     return [np.stack(block, axis=-1) for block in zip(*found, strict=True)]
 
 
-def _column(given: Callable[[Array], Array], i: int, points: Array) -> Array:
+def _column(given: Callable[[Array], Array], i: int, components: int, points: Array) -> Array:
     """A component of a function that gives one vector a point."""
     found = np.asarray(given(points), float)
-    if found.shape != points.shape:
+    if found.shape != (len(points), components):
         raise InputError(
             f"is a function that gives shape {found.shape} for points {points.shape}; expected one vector a point"
         )
@@ -120,9 +142,10 @@ def _check_axis(model: Model, nodes: IntArray, forces: Array, where: Where) -> N
     if not model.axisymmetric:
         return
     radii = model.mesh.points[:, 0]
-    wrong = nodes[(radii[nodes] <= ON_AXIS * radii.max()) & (forces[nodes, 0] != 0.0)]
+    wrong = nodes[(radii[nodes] <= ON_AXIS * radii.max()) & (forces[nodes, ::2] != 0.0).any(axis=1)]
     if len(wrong):
-        raise InputError(f"has a radial component at node {wrong[0] + 1}, which is on the axis", where=where)
+        kind = "radial" if forces[wrong[0], 0] else "hoop"
+        raise InputError(f"has a {kind} component at node {wrong[0] + 1}, which is on the axis", where=where)
 
 
 def _given(force: tuple[float | None, ...]) -> Array:
@@ -133,13 +156,14 @@ def _body_forces(space: Space, model: Model, load: Load) -> Array:
     """``int N_k b dx`` over a body."""
     index = next(i for i, body in enumerate(model.bodies) if body.name == load.on)
     owner = model.body_of_cells()
-    forces = np.zeros((len(space.mesh.points), space.dimension))
+    forces = np.zeros((len(space.mesh.points), space.components))
     for block, volumes in zip(space.blocks, space.volumes, strict=True):
         here = np.flatnonzero(owner[block.first : block.first + len(block.cells)] == index)
         at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[block.cells[here]])
         weights = (volumes[here] * measure(model, at, block.first + here))[..., None]
         density = _density(load, model.bodies[index].material.density, at, model.axisymmetric)
-        np.add.at(forces, block.cells[here], np.einsum("qk,mqi->mki", block.values, weights * density))
+        shares = np.einsum("qk,mqi->mki", block.values, weights * density)
+        np.add.at(forces[:, : shares.shape[2]], block.cells[here], shares)
     return forces.ravel()
 
 
@@ -164,4 +188,4 @@ def _density(load: Load, mass: float, at: Array, axisymmetric: bool) -> Array:
         outward: Array = arm - (arm @ along)[..., None] * along
         return mass * load.centrifugal**2 * outward
     constant = np.array(load.body_force) if load.body_force is not None else mass * np.array(load.gravity)
-    return np.broadcast_to(constant, at.shape)
+    return np.broadcast_to(constant, (*at.shape[:-1], len(constant)))

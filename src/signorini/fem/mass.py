@@ -33,7 +33,7 @@ def mass_matrix(space: Space, model: Model) -> sp.csr_array:
         if body.material.density == 0.0:
             raise InputError(f"'{body.name}' has no density; modes need one in its material", where=("body", i))
     density = np.array([body.material.density for body in model.bodies])[model.body_of_cells()]
-    count, d = len(space.mesh.points), space.dimension
+    count, d = len(space.mesh.points), space.components
     M = sp.csr_array((count, count))
     for block in space.blocks:
         linear = block.cells.shape[1] == CORNERS[block.family]

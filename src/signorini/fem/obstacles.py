@@ -20,9 +20,10 @@ def arm(model: Model) -> float:
 
 
 def carried(model: Model, points: Array, about: Array) -> Array:
-    """Displacement of points with the unknowns of what is rigid, (k, d, 2 d): in 2D ``u_x, u_y, theta arm``, none.
+    """Displacement of points with the unknowns of what is rigid, (k, c, 2 c): in 2D ``u_x, u_y, theta arm``, none.
 
-    ``u(x) = u + theta (-(y - y_c), x - x_c)``; in space ``u + theta x (x - x_c)`` with three rotations.
+    ``u(x) = u + theta (-(y - y_c), x - x_c)``; in space ``u + theta x (x - x_c)`` with three rotations. With twist
+    ``u_r, u_z`` and ``u_t = theta r``.
 
     Parameters
     ----------
@@ -32,6 +33,11 @@ def carried(model: Model, points: Array, about: Array) -> Array:
     """
     lever = (points - about) / arm(model)
     d = lever.shape[1]
+    if model.twists:
+        found = np.zeros((len(points), 3, 6))
+        found[:, 0, 0] = found[:, 1, 1] = 1.0
+        found[:, 2, 2] = points[:, 0] / arm(model)
+        return found
     result = np.zeros((len(points), d, 2 * d))
     result[:, :, :d] = np.eye(d)
     if d == 2:
@@ -84,10 +90,10 @@ def placed(space: Space, model: Model, j: int) -> Placed:
 
 
 def driven(model: Model, j: int) -> tuple[BoolArray, Array]:
-    """Which unknowns of obstacle j are prescribed, and their values at factor 1, (2 d,) each."""
+    """Which unknowns of obstacle j are prescribed, and their values at factor 1, (2 c,) each."""
     obstacle = model.obstacles[j]
     turns = tuple(None if turn is None else turn * arm(model) for turn in obstacle.rotations)
-    given = (*obstacle.u, *turns, *((0.0,) if model.dimension == 2 else ()))
+    given = (*obstacle.u, *turns, *(0.0,) * (2 * model.components - len(obstacle.u) - len(turns)))
     return np.array([part is not None for part in given]), np.array([part or 0.0 for part in given])
 
 

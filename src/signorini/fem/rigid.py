@@ -95,7 +95,7 @@ def _freedom(model: Model) -> dict[str, Any]:
     """Axes along which a body can move, and the number of those about which it can rotate."""
     d = model.dimension
     return (
-        {"axes": (1,), "rotations": 0}
+        {"axes": (1,), "rotations": int(model.twists)}
         if model.axisymmetric
         else {"axes": tuple(range(d)), "rotations": len(_rotation_planes(d))}
     )
@@ -138,7 +138,7 @@ def _rigid(model: Model) -> list[ConnectedBody]:
 def _loose_nodes(space: Space) -> list[ConnectedBody]:
     """Nodes of no cell, which do not rotate."""
     points, labels = space.mesh.points, space.mesh.labels
-    given: dict[str, Any] = {"axes": tuple(range(space.dimension)), "rotations": 0, "kind": "node"}
+    given: dict[str, Any] = {"axes": tuple(range(space.components)), "rotations": 0, "kind": "node"}
     return [
         ConnectedBody(bodies=(str(labels[i]),), nodes=np.array([i]), centre=points[i], size=1.0, **given)
         for i in space.loose_nodes
@@ -149,8 +149,9 @@ def rigid_motions(space: Space, parts: tuple[ConnectedBody, ...]) -> sp.csr_arra
     """Translations along x and y and the rotation ``(-(y - y_c), x - x_c) / size`` of each part, (dofs, motions).
 
     In space three translations and the rotations ``e_k x (x - c) / size``. Axisymmetric parts move along the axis
-    alone: widening a ring or tilting a plate strains it.
+    alone, with twist turn about it as well, ``u_t = r / size``: widening a ring or tilting a plate strains it.
     """
+    twists = space.components > space.dimension
     d = space.dimension
     full = d + len(_rotation_planes(d))
     rows, columns, values = [], [], []
@@ -159,7 +160,9 @@ def rigid_motions(space: Space, parts: tuple[ConnectedBody, ...]) -> sp.csr_arra
         lever = (space.mesh.points[part.nodes] - part.centre) / part.size
         one, along = np.ones(len(part.nodes)), space.dofs(part.nodes).T
         motions = [(k, dofs, one) for k, dofs in enumerate(along)]
-        for k, (first, second) in enumerate(_rotation_planes(d), start=d):
+        if twists and part.rotations:
+            motions[2:] = [(2, along[2], space.mesh.points[part.nodes, 0] / part.size)]
+        for k, (first, second) in enumerate([] if twists else _rotation_planes(d), start=d):
             motions += [(k, along[first], -lever[:, second]), (k, along[second], lever[:, first])]
         if part.obstacle >= 0:
             motions = [(k, dof, np.ones(1)) for k, dof in enumerate(space.obstacle_dofs(part.obstacle)[:full, None])]
@@ -299,10 +302,11 @@ def _moving(parts: tuple[ConnectedBody, ...], motion: Array) -> list[tuple[Conne
 
 def _way(part: ConnectedBody, own: Array) -> tuple[str, str]:
     """How a part moves, and along which direction or about which point (in space an axis)."""
-    along, turn = np.zeros(len(part.centre)), own[len(part.axes) :]
+    along, turn = np.zeros(max(len(part.centre), len(part.axes))), own[len(part.axes) :]
     along[list(part.axes)] = own[: len(part.axes)]
     if part.axes == (1,):
-        return _TRANSLATION, "the axis"
+        ways = [_TRANSLATION] * bool(along.any()) + ["turn about"] * bool(turn.any())
+        return " and ".join(ways), "the axis"
     if not turn.any():
         direction = along / np.linalg.norm(along)
         named = "xyz"[int(np.argmax(np.abs(direction)))]

@@ -17,6 +17,7 @@ from signorini.errors import InputError, spell_point
 from signorini.fem.jacobian import determinants, jacobians
 from signorini.fem.wedge import QuadraticWedge
 from signorini.meshing.facets import HEXAHEDRON, CellFacets, check_conforming, make_facets, refuse_folded
+from signorini.model.kind import axes, revolves
 from signorini.model.mesh import CORNERS, Mesh
 
 ON_AXIS = 1e-10
@@ -99,7 +100,7 @@ class Block:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Space:
-    """Displacements of a mesh; component i of node k is dof ``d k + i`` (scikit-fem's numbering).
+    """Displacements of a mesh; component i of c of node k is dof ``c k + i`` (scikit-fem's numbering).
 
     Examples
     --------
@@ -111,6 +112,7 @@ class Space:
     Attributes
     ----------
     mesh, blocks : nodes and cells
+    components : of the displacement of a node
     obstacles : how many rigid obstacles and rigid bodies have unknowns of their own, behind those of the nodes
     linked : (k,) nodes that equations name, which may belong to no cell
     displacement : (dofs,) by which the nodes of the mesh, and obstacles, have moved; empty where they have not
@@ -118,6 +120,7 @@ class Space:
 
     mesh: Mesh
     blocks: tuple[Block, ...]
+    components: int
     obstacles: int = 0
     linked: IntArray = field(default_factory=lambda: np.empty(0, np.int64))
     displacement: Array = field(default_factory=lambda: np.zeros(0))
@@ -142,17 +145,22 @@ class Space:
             turned = [np.stack([-x[:, 1], x[:, 0]], axis=1)]
         else:
             turned = [np.cross(axis, x) for axis in np.eye(3)]
-        return sp.csr_array(rows[:, : x.size] @ np.stack([by.ravel() for by in turned], axis=1))
+        return sp.csr_array(rows[:, : self.dofs_of_nodes] @ np.stack([by.ravel() for by in turned], axis=1))
 
     @property
     def dimension(self) -> int:
-        """Of space."""
+        """Of the coordinates; displacements have one component more in bodies of revolution that twist."""
         return int(self.mesh.points.shape[1])
 
     @property
     def number_of_dofs(self) -> int:
         """Of all nodes, held and unused ones included, and of rigid obstacles."""
-        return self.mesh.points.size + 2 * self.dimension * self.obstacles
+        return self.dofs_of_nodes + 2 * self.components * self.obstacles
+
+    @property
+    def dofs_of_nodes(self) -> int:
+        """How many belong to nodes of the mesh; those of obstacles follow."""
+        return len(self.mesh.points) * self.components
 
     @property
     def places(self) -> Array:
@@ -161,9 +169,9 @@ class Space:
         return np.concatenate([points, np.tile(points.mean(axis=0), (2 * self.obstacles, 1))])
 
     def obstacle_dofs(self, j: int) -> IntArray:
-        """Dofs of rigid obstacle j, (2 d,): its translation, then its rotation times a length; then of rigid bodies."""
-        first = self.mesh.points.size + 2 * self.dimension * j
-        return np.arange(first, first + 2 * self.dimension)
+        """Dofs of rigid obstacle j, (2 c,): its translation, then its rotation times a length; then of rigid bodies."""
+        first = self.dofs_of_nodes + 2 * self.components * j
+        return np.arange(first, first + 2 * self.components)
 
     @cached_property
     def used_nodes(self) -> IntArray:
@@ -208,24 +216,24 @@ class Space:
         return next(v for b, v in zip(self.blocks, self.volumes, strict=True) if b is block)
 
     def at_nodes(self, values: Array) -> Array:
-        """Values of all dofs (dofs,) at the nodes, (nodes, d), without those of obstacles."""
-        return values[: self.mesh.points.size].reshape(-1, self.dimension)
+        """Values of all dofs (dofs,) at the nodes, (nodes, c), without those of obstacles."""
+        return values[: self.dofs_of_nodes].reshape(-1, self.components)
 
     def farthest(self, displacement: Array) -> float:
         """The longest way of a node of the mesh, of displacements (dofs,), in whatever direction, length."""
         return float(np.linalg.norm(self.at_nodes(displacement), axis=1).max())
 
     def dofs(self, nodes: IntArray) -> IntArray:
-        """Dofs of nodes, (..., d)."""
-        return nodes[..., None] * self.dimension + np.arange(self.dimension)
+        """Dofs of nodes, (..., c)."""
+        return nodes[..., None] * self.components + np.arange(self.components)
 
 
-def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0, linked: IntArray | None = None) -> Space:
+def make_space(mesh: Mesh, *, kind: str = "", obstacles: int = 0, linked: IntArray | None = None) -> Space:
     """The space of a mesh.
 
     Parameters
     ----------
-    axisymmetric : coordinates are radius and height: higher quadratures
+    kind : of the model; where coordinates are radius and height quadratures are higher; by default plane or in space
     obstacles : rigid ones, and rigid bodies, with unknowns of their own
     linked : nodes that equations name
 
@@ -235,14 +243,16 @@ def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0, li
         For a cell without area or turned inside out, with its number; for linear cells that meet quadratic ones along
         an edge; for a negative radius.
     """
-    if axisymmetric:
+    ring = revolves(kind)
+    if ring:
         _check_radii(mesh)
     blocks, first = [], 0
     for family, cells in mesh.cells.items():
-        blocks.append(_block(family, cells, first, axisymmetric))
+        blocks.append(_block(family, cells, first, ring))
         first += len(cells)
     linked = np.empty(0, np.int64) if linked is None else linked
-    space = Space(mesh=mesh, blocks=tuple(blocks), obstacles=obstacles, linked=linked)
+    components = len(axes(kind)) if kind else mesh.points.shape[1]
+    space = Space(mesh=mesh, blocks=tuple(blocks), components=components, obstacles=obstacles, linked=linked)
     if space.dimension == 2 and any(nodes.shape[1] > CORNERS[family] for family, nodes in mesh.cells.items()):
         check_conforming(mesh, space.facets)
     _check_extent(space)
@@ -250,10 +260,10 @@ def make_space(mesh: Mesh, *, axisymmetric: bool = False, obstacles: int = 0, li
     return space
 
 
-def _block(family: str, cells: IntArray, first: int, axisymmetric: bool) -> Block:
+def _block(family: str, cells: IntArray, first: int, ring: bool) -> Block:
     what = _ELEMENTS[family]
     element = what.kind()
-    where, weights = _rule(element, what.ring if axisymmetric else what.plane)
+    where, weights = _rule(element, what.ring if ring else what.plane)
     best, _ = _rule(element, what.stress)
     order = _meshio_order(family, element)
     nodes = element.doflocs[order].T

@@ -21,11 +21,12 @@ _PRODUCT_TOL = 64.0 * float(np.finfo(np.float64).eps)  # of the products that an
 def stiffness(space: Space, model: Model) -> sp.csr_array:
     """``K_ij = int eps(phi_i) : C : eps(phi_j) dx``, (dofs, dofs).
 
-    ``dx`` holds the thickness; of axisymmetric bodies ``2 pi r dr dz``, and their strain has the hoop part ``u_r / r``.
+    ``dx`` holds the thickness; of axisymmetric bodies ``2 pi r dr dz``, and their strain has the hoop part ``u_r / r``,
+    with twist the shear strains ``d_r u_t - u_t / r`` and ``d_z u_t``.
     Cells of rigid bodies have none.
     With a mean dilatation the volume strain is projected on few functions in every cell (Simo, Taylor, Pister 1985).
     """
-    law = law_tensor(elasticities(model), hoop=model.axisymmetric)
+    law = law_tensor(elasticities(model), hoop=model.axisymmetric, twist=model.twists)
     blocks = []
     for group in straining_groups(space, model):
         block = group.block

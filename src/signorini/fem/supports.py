@@ -161,7 +161,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
         prescribed={},
         springs=make_springs(space, model) if model.foundations else {},
         owner=given.owner,
-        nodes=unknown // space.dimension,
+        nodes=unknown // space.components,
         dependent=dependent,
         shares=shares,
     )
@@ -170,7 +170,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
 
 def _prescribed(space: Space, model: Model, links: Links | None, without: Collection[str]) -> _Prescribed:
     """What supports, moving obstacles and the axis hold, and what belongs to nothing."""
-    total, d = space.number_of_dofs, space.dimension
+    total, d = space.number_of_dofs, space.components
     axis_dofs = _on_axis(space, model)
     owner, values = np.full(total, -1), np.zeros(total)
     prescribed = {support.label: np.zeros(total) for support in model.supports if support.moves}
@@ -199,8 +199,8 @@ def _prescribed(space: Space, model: Model, links: Links | None, without: Collec
             prescribed[obstacle.label][dofs] = path
     for j in range(len(model.rigid_bodies)):
         dofs = space.obstacle_dofs(len(model.obstacles) + j)
-        held[dofs[len(directions(d)) :]] = True
-        held[dofs[[0, 2]]] |= model.axisymmetric
+        held[dofs[len(directions(space.dimension)) :]] = True
+        held[dofs[[0] if model.twists else [0, 2]]] |= model.axisymmetric
     loose = np.zeros(total, bool)
     loose[: d * len(space.used)] = np.repeat(~space.used, d)
     if links is not None:
@@ -217,9 +217,9 @@ def _values(space: Space, model: Model, i: int, axis: int, dofs: IntArray) -> Ar
     assert part is not None
     if isinstance(part, float | int):
         return np.full(len(dofs), part * arm(model) if axis >= space.dimension else part)  # of rotations: lengths
-    if (dofs >= space.mesh.points.size).any():
+    if (dofs >= space.dofs_of_nodes).any():
         raise InputError("varies, but a rigid body moves as one; expected a number", where=where)
-    nodes = dofs // space.dimension
+    nodes = dofs // space.components
     on = str(support.on)
     side = boundary(space, on, (*where[:2], "on")) if on in space.mesh.boundaries else None
     return at_nodes(part, space, nodes, where, side)
@@ -233,13 +233,13 @@ def _leaders(space: Space, model: Model, given: _Prescribed) -> IntArray:
             continue
         nodes = nodes_at(space, load.on, ("load", i, "on"))
         for axis in (axis for axis, part in enumerate(load.force) if part is not None):
-            dofs = nodes * space.dimension + axis
+            dofs = nodes * space.components + axis
             blocked = dofs[given.held[dofs] | (leader[dofs] != dofs)]
             if len(blocked):
                 owner = given.owner[blocked[0]]
                 by = "the axis" if given.held[blocked[0]] else "another load"
                 by = f"support '{model.supports[owner].label}'" if owner >= 0 else by
-                number = space.mesh.labels[blocked[0] // space.dimension]
+                number = space.mesh.labels[blocked[0] // space.components]
                 raise InputError(
                     f"the boundary should move rigidly in {model.axes[axis]}, but {by} holds node {number} in that "
                     'direction; expected the component to be free (None, in a deck "free")',
@@ -256,7 +256,7 @@ def _refuse_contradictions(space: Space, links: Links, found: Eliminated, given:
         if wrong.any():
             row = int(np.argmax(wrong))
             dof = int(found.left.indices[found.left.indptr[row]])
-            node = dof // space.dimension
+            node = dof // space.components
             at = f" (node {space.mesh.labels[node]})" if node < len(space.mesh.points) else ""
             raise InputError(
                 f"contradicts the supports: all its displacements are held{at}, and '{name}' does not move them as it "
@@ -266,19 +266,21 @@ def _refuse_contradictions(space: Space, links: Links, found: Eliminated, given:
 
 
 def _on_axis(space: Space, model: Model) -> IntArray:
-    """Radial dofs of nodes on the axis of an axisymmetric body: its points cannot leave the axis."""
+    """Radial and hoop dofs of nodes on the axis of an axisymmetric body: its points cannot leave the axis."""
     if not model.axisymmetric:
         return np.empty(0, int)
     radii = space.mesh.points[space.used_nodes, 0]
-    return space.used_nodes[radii <= ON_AXIS * radii.max()] * space.dimension
+    dofs = space.dofs(space.used_nodes[radii <= ON_AXIS * radii.max()])
+    return np.sort(dofs[:, ::2], axis=None)
 
 
 def _check_axis(space: Space, dofs: IntArray, i: int, value: Array) -> None:
     if len(dofs):
-        number = space.mesh.labels[dofs[0] // 2]
+        node, axis = divmod(int(dofs[0]), space.components)
+        number = space.mesh.labels[node]
         raise InputError(
-            f"u_r = {value[0]:g} at node {number}, which is on the axis and stays there; expected 0 or None "
-            '(in a deck "free")',
+            f"u_{'rzt'[axis]} = {value[0]:g} at node {number}, which is on the axis and stays there; expected 0 or "
+            'None (in a deck "free")',
             where=("support", i, "u"),
         )
 
@@ -290,7 +292,7 @@ def _check_agreement(
     shared = (owner[dofs] >= 0) & ((value != 0.0) | (values[dofs] != 0.0))
     for dof, own in zip(dofs[shared], value[shared], strict=True):
         other = model.supports[owner[dof]]
-        node, axis = divmod(int(dof), space.dimension)
+        node, axis = divmod(int(dof), space.components)
         on = (
             f"u_{model.axes[axis]} = {own:g} at node {space.mesh.labels[node]}, where"
             if (node < len(space.mesh.points))

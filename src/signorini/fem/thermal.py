@@ -64,7 +64,7 @@ def thermal_forces(space: Space, model: Model, load: Load) -> Array:
     space, model : of the bodies
     load : of temperature
     """
-    forces = np.zeros((len(space.mesh.points), space.dimension))
+    forces = np.zeros((len(space.mesh.points), space.components))
     for group, points, _, stress in _held(space, model, load):
         if group.formulation == "mean dilatation":
             pressure = stress[..., :3].mean(axis=-1)

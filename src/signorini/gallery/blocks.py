@@ -12,9 +12,10 @@ from signorini.meshing.plane import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.kind import Kind
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
-from signorini.model.model import Kind, Model
+from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step
 

@@ -10,9 +10,10 @@ from signorini.meshing.plane import Cells, rectangle
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.kind import Kind
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
-from signorini.model.model import Kind, Model
+from signorini.model.model import Model
 from signorini.reference.hertz import contact_modulus
 
 UPPER, LOWER = Elastic(E=200.0, nu=0.3), Elastic(E=70.0, nu=0.2)

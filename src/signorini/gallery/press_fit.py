@@ -10,9 +10,10 @@ from signorini.meshing.solid import extruded
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact
+from signorini.model.kind import Kind
 from signorini.model.material import Elastic
 from signorini.model.mesh import join
-from signorini.model.model import Kind, Model
+from signorini.model.model import Model
 
 
 def press_fit(

@@ -14,9 +14,10 @@ from signorini.meshing.plane import Cells, annulus, rectangle
 from signorini.model.body import Body, Formulation
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.kind import Kind
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh
-from signorini.model.model import Kind, Model
+from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle, Plane
 from signorini.model.plastic import Plastic
 from signorini.model.rigid import Rigid

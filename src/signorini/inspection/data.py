@@ -31,7 +31,7 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
     notes : what looks wrong, or differs from the deck
     """
     model, mesh, interface = deck.model, deck.model.mesh, examined.interface
-    dimension = model.dimension
+    components = model.components
     gaps = [interface.gap[interface.contact == i] for i in range(len(model.contacts))]
     return {
         "deck": str(deck.path),
@@ -42,7 +42,7 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
         "size": {
             "nodes": len(mesh.points),
             "elements": {family: len(cells) for family, cells in mesh.cells.items()},
-            "dofs": int(mesh.points.size),
+            "dofs": model.number_of_dofs,
             "free_dofs": int(examined.constraints.transform.shape[1]),
         },
         "bodies": [
@@ -65,7 +65,7 @@ def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str,
             for i, support in enumerate(model.supports)
         ],
         "loads": [
-            {"name": load.label, "kind": load.kind, "total_force": total_force(examined, load)[:dimension]}
+            {"name": load.label, "kind": load.kind, "total_force": total_force(examined, load)[:components]}
             for load in model.loads
         ],
         "contacts": [

@@ -73,7 +73,7 @@ def held_notes(examined: Examined) -> Iterator[str]:
     for i, contact in enumerate(examined.model.contacts):
         own = interface.contact == i
         nodes, normals = interface.node[own], interface.normals[own]
-        held = examined.constraints.owner[space.dofs(nodes)] >= 0
+        held = examined.constraints.owner[space.dofs(nodes)][:, : normals.shape[1]] >= 0
         blocked = nodes[np.abs(normals * held).sum(axis=1) > 0.999 * np.abs(normals).sum(axis=1)]
         if len(blocked):
             numbers = examined.model.mesh.labels[blocked]

@@ -39,7 +39,7 @@ def deck_text(deck: Deck, examined: Examined) -> list[str]:
         f"{deck.path}: {model.title or 'untitled'}",
         f"{model.kind}{_thickness(model)}, units: {model.units}",
         f"{len(mesh.points)} nodes, {mesh.number_of_cells} elements ({families}), "
-        f"{mesh.points.size} dofs, {free} of them free",
+        f"{model.number_of_dofs} dofs, {free} of them free",
     ]
     for title, rows in (
         ("bodies", _bodies(model)),

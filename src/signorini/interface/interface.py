@@ -17,7 +17,7 @@ from signorini.fem.obstacles import carried, placed
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.coupling import along
-from signorini.interface.frames import LEAST_SINE, along_tangents, tangents
+from signorini.interface.frames import LEAST_SINE, along_tangents, tangents, with_hoop
 from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.law.bound import Bound
@@ -37,8 +37,8 @@ class Interface:
     A pair is a nonmortar node and what lies opposite: a node, a weighted mean of nodes, or a rigid obstacle.
 
     The normal n points from the mortar side into the nonmortar body, the tangent is ``t = (n_y, -n_x)``; in space there
-    are two, ``t1 x t2 = n``. Forces of the interface on the bodies are ``B^T r``, r the normal (pressing > 0) and
-    tangential forces on the nonmortar body.
+    are two, ``t1 x t2 = n``, with twist the second one goes along the hoop. Forces of the interface on the bodies are
+    ``B^T r``, r the normal (pressing > 0) and tangential forces on the nonmortar body.
 
     Attributes
     ----------
@@ -196,6 +196,8 @@ def make_interface(
     facets = np.array([contact.facets for contact in model.contacts], np.int64)[index]
     gap, closure = _joined([part.gap for part in parts], (0,)), _closure(model, chosen, parts)
     B = _relative_rows(space, model, parts, normals, axes, still)
+    if model.twists:
+        normals, axes = with_hoop(normals, axes)
     own = [part.own for part in parts]
     return Interface(
         B=B,
@@ -205,7 +207,7 @@ def make_interface(
         normals=normals,
         tangents=axes,
         node=node,
-        moments=moments_of_rows(B, space.mesh.points, own, np.tile(np.searchsorted(chosen, index), space.dimension)),
+        moments=moments_of_rows(B, space, own, np.tile(np.searchsorted(chosen, index), space.components)),
         contact=index,
         friction=friction,
         anisotropy=_anisotropy(model, [contact.law for contact in model.contacts], axes, index),
@@ -245,6 +247,9 @@ def _relative_rows(
     for k in range(space.dimension - 1):
         slid = _with_obstacles(space, model, carrier, _sliding_rows(sliding, normals, axes[:, k]))
         rows.append(sp.diags_array(np.where(still[:, k], 0.0, 1.0)) @ slid)
+    if model.twists:
+        none = sp.csr_array(closing[0].shape)
+        rows.append(_with_obstacles(space, model, carrier, (none, none, along(closing, normals))))
     B = sp.csr_array(sp.vstack(rows))
     B.sum_duplicates()  # entries in order from the start: sums do not depend on who has looked at them before
     return B
@@ -294,7 +299,7 @@ def _of_shared_nodes(space: Space, model: Model, node: IntArray, rubs: BoolArray
     determined, which no path of states can follow. With so little compliance that displacements do not feel it they
     share it in one way.
     """
-    if space.dimension == 3 or not len(node):
+    if space.components == 3 or not len(node):
         return np.zeros(len(node))
     shared = np.bincount(node)[node] > 1
     size = float(extent(space.mesh.points).max())
@@ -364,9 +369,9 @@ def _with_obstacles(space: Space, model: Model, carrier: IntArray, weights: tupl
     rows = np.concatenate([part.row for part in entries])
     columns = np.concatenate([space.dofs(part.col.astype(np.int64))[:, i] for i, part in enumerate(entries)])
     values = np.concatenate([part.data for part in entries])
-    bodies = sp.csr_array((values, (rows, columns)), shape=(len(carrier), space.mesh.points.size))
+    bodies = sp.csr_array((values, (rows, columns)), shape=(len(carrier), space.dofs_of_nodes))
     bodies.eliminate_zeros()
-    width = 2 * space.dimension
+    width = 2 * space.components
     moved = np.zeros((len(carrier), width * (len(model.obstacles) + len(model.rigid_bodies))))
     for j in range(len(model.obstacles)):
         own = np.flatnonzero(carrier == j)

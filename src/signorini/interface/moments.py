@@ -9,9 +9,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.fem.space import Space
 
 
-def moments_of_rows(B: sp.csr_array, points: Array, own: Sequence[IntArray], contact: IntArray) -> Array:
+def moments_of_rows(B: sp.csr_array, space: Space, own: Sequence[IntArray], contact: IntArray) -> Array:
     """Moments about the origin of unit forces of all rows of B on the nonmortar side, ``sum_j x_j x B_j``.
 
     A pair of a quadratic facet bears at all its nodes; taken as a force at its corner it would turn too much or too
@@ -20,17 +21,17 @@ def moments_of_rows(B: sp.csr_array, points: Array, own: Sequence[IntArray], con
     Parameters
     ----------
     B : (rows, dofs) see :class:`signorini.interface.interface.Interface`
-    points : (k, d) of all nodes, length
+    space : of all nodes
     own : nodes of the nonmortar side of every contact
     contact : (rows,) the contact that a row belongs to
 
     Returns
     -------
-    (rows, 1) in the plane, counterclockwise; (rows, 3) in space; length
+    (rows, 1) in the plane, counterclockwise, with twist about the axis of revolution; (rows, 3) in space; length
     """
-    d = points.shape[1]
+    points, c = space.mesh.points, space.components
     entries = B.tocoo()
-    node, axis = np.divmod(entries.col.astype(np.int64), d)
+    node, axis = np.divmod(entries.col.astype(np.int64), c)
     inside: BoolArray = np.zeros((len(own), len(points)), np.bool_)
     for i, nodes in enumerate(own):
         inside[i, nodes] = True
@@ -38,7 +39,10 @@ def moments_of_rows(B: sp.csr_array, points: Array, own: Sequence[IntArray], con
     there[there] = inside[contact[entries.row[there]], node[there]]
     row, node, axis, value = entries.row[there], node[there], axis[there], entries.data[there]
     x = points[node]
-    arm = np.where(axis == 1, x[:, 0], -x[:, 1])[:, None] if d == 2 else np.cross(x, np.eye(3)[axis])
+    if c > space.dimension:
+        arm = np.where(axis == 2, x[:, 0], 0.0)[:, None]
+    else:
+        arm = np.where(axis == 1, x[:, 0], -x[:, 1])[:, None] if c == 2 else np.cross(x, np.eye(3)[axis])
     result = np.zeros((B.shape[0], arm.shape[1]))
     np.add.at(result, row, value[:, None] * arm)
     return result

@@ -7,9 +7,13 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
+import numpy as np
+
+from signorini.arrays import IntArray
 from signorini.checks import choice, number, text
 from signorini.errors import InputError, Where
 from signorini.model.material import Elastic, Material, Orthotropic
+from signorini.model.mesh import Mesh
 
 Formulation = Literal["standard", "incompatible", "mean dilatation"]
 """Of cells."""
@@ -132,3 +136,28 @@ class Body:
                 f"'{self.name}' yields and has wedge15 cells, which have no mean dilatation; expected 'standard'",
                 where=where_cells,
             )
+
+
+def refuse_other_owners(mesh: Mesh, count: IntArray) -> None:
+    """Refuse cells that do not belong to exactly one body.
+
+    Parameters
+    ----------
+    mesh : of the cells
+    count : (m,) of the bodies that every cell belongs to
+
+    Raises
+    ------
+    InputError
+        For the first such cell.
+    """
+    if (count == 1).all():
+        return
+    cell = int(np.nonzero(count != 1)[0][0])
+    names = [name for name, cells in mesh.bodies.items() if cell in cells]
+    if count[cell]:
+        words = f"belongs to several bodies: {', '.join(names)}"
+    else:
+        of = f"it is in {' and '.join(names)}" if names else "it is in no named part of the mesh"
+        words = f"belongs to no body ({of}); give it a body and a material"
+    raise InputError(f"{mesh.cell_name(cell)} {words}", where=("body",), cell=cell)

@@ -18,7 +18,7 @@ from signorini.short import Short
 Place = str | tuple[float, ...]
 
 BODY_LOADS = ("body_force", "gravity", "centrifugal", "temperature")
-_LOAD_KINDS = ("force", "nodal_forces", "traction", "pressure", "bearing", *BODY_LOADS)
+_LOAD_KINDS = ("force", "nodal_forces", "traction", "pressure", "bearing", *BODY_LOADS, "torque")
 
 
 @dataclass(frozen=True)
@@ -111,6 +111,7 @@ class Load(Short):
     pressure : force per area, positive when it pushes on the body; a number or what varies
     bearing : total force of a pin or ball in a hole, on a boundary: a pressure that goes with the cosine between the
         force and the way into the body, where it pushes
+    torque : total moment about the axis of bodies that twist, by forces along the hoop that grow with the radius
     body_force : force per volume
     gravity : acceleration; times the density of the material
     centrifugal : angular velocity, angle per time, >= 0: ``density omega^2 r`` away from the axis. A step's factor
@@ -136,6 +137,7 @@ class Load(Short):
     traction: tuple[Varying, ...] | Callable[[Array], Array] | None = None
     pressure: Varying | None = None
     bearing: tuple[float, ...] | None = None
+    torque: float | None = None
     body_force: tuple[float, ...] | None = None
     gravity: tuple[float, ...] | None = None
     centrifugal: float | None = None
@@ -165,6 +167,8 @@ class Load(Short):
                 object.__setattr__(self, key, vector(getattr(self, key), (key,)))
         if self.pressure is not None:
             object.__setattr__(self, "pressure", varying(self.pressure, ("pressure",)))
+        if self.torque is not None:
+            object.__setattr__(self, "torque", number(self.torque, ("torque",)))
         if self.bearing is not None and not any(self.bearing):
             raise InputError("is zero; expected a force", where=("bearing",))
         if self.centrifugal is not None:

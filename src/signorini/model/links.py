@@ -14,6 +14,8 @@ AXES = ("x", "y", "z")
 TURNS = {2: ("rotation",), 3: ("rotation x", "rotation y", "rotation z")}
 """How the rotations of a rigid body are called, behind x and y (and z); by the dimension of space."""
 
+_LETTERS = {"r": "x", "t": "z"}  # of axisymmetric models
+
 Term = tuple[str | int | tuple[float, ...], str, float]
 
 
@@ -27,9 +29,9 @@ class Equation:
     Parameters
     ----------
     terms : of place, direction and coefficient c. A place is a node set, a boundary, the coordinates of a node, its
-        number, or a rigid body. A direction is "x", "y" or "z" ("r" for "x" in axisymmetric models), of a rigid body
-        also "rotation", in space "rotation x", "rotation y" or "rotation z". Places of n nodes make n equations: their
-        nodes go together in ascending order, and single nodes are in all of them
+        number, or a rigid body. A direction is "x", "y" or "z" ("r" for "x" in axisymmetric models, "t" for "z" along
+        the hoop), of a rigid body also "rotation", in space "rotation x", "rotation y" or "rotation z". Places of n
+        nodes make n equations: their nodes go together in ascending order, and single nodes are in all of them
     name : what messages call it
 
     Examples
@@ -56,7 +58,8 @@ class RigidBody:
 
     Its displacement u and its rotation are unknowns. Supports and loads whose place is its name hold and load them:
     they have an entry for every direction, then one for the rotation (counterclockwise, radians, moment), in space
-    three. In axisymmetric models only the motion along the axis is left; the others are held.
+    three. In axisymmetric models only the motion along the axis is left, with twist also the rotation about it; the
+    others are held.
 
     Parameters
     ----------
@@ -139,7 +142,7 @@ def _term(term: Any, where: tuple[str | int, ...]) -> Term:
         on = vector(on, (*where, 0))
     elif isinstance(on, str):
         text(on, (*where, 0))
-    axis = choice("x" if axis == "r" else axis, (*AXES, *TURNS[2], *TURNS[3]), (*where, 1), "direction")
+    axis = choice(_LETTERS.get(axis, axis), (*AXES, *TURNS[2], *TURNS[3]), (*where, 1), "direction")
     value = number(coefficient, (*where, 2))
     if value == 0.0:
         raise InputError("is 0; expected another coefficient, or no such term", where=(*where, 2))

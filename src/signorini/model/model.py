@@ -12,22 +12,21 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.checks import choice, members, number
 from signorini.errors import InputError, one_of
-from signorini.model.body import Body
+from signorini.model.body import Body, refuse_other_owners
 from signorini.model.bolt import Bolt
 from signorini.model.conditions import BODY_LOADS, Foundation, Load, Place, Support
 from signorini.model.contact import Contact
 from signorini.model.fatigue import Fatigue
+from signorini.model.kind import KINDS, TWIST, WITHOUT_THICKNESS, Kind, axes, revolves
 from signorini.model.labels import Labelled, refuse_same_names, refuse_wrong_changes
 from signorini.model.links import CyclicSymmetry, Equation, RigidBody, directions
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
+from signorini.model.revolution import check_loads, check_rigid_motions, check_twist
 from signorini.model.rigid import Rigid
 from signorini.model.step import Step
 from signorini.short import Drawable
-
-Kind = Literal["plane strain", "plane stress", "axisymmetric", "3d"]
-KINDS = ("plane strain", "plane stress", "axisymmetric", "3d")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -38,7 +37,8 @@ class Model(Drawable):
     ----------
     mesh : the mesh; its names are what the rest speaks of
     kind : "plane strain", "plane stress" or "axisymmetric": coordinates are then the radius and the height, forces and
-        areas are for the whole circumference; a mesh in space is "3d". Empty (default) is "plane strain" or "3d"
+        areas are for the whole circumference; "axisymmetric twist": bodies turn about the axis, too, and displacements
+        and forces have a third component along the hoop; a mesh in space is "3d". Empty: "plane strain" or "3d"
     thickness : of plane models, length; forces and areas are for this thickness; bodies may have one of their own
     bodies : every cell of the mesh belongs to exactly one
     supports, foundations, loads, contacts : see :class:`Support`, :class:`Foundation`, :class:`Load`,
@@ -109,10 +109,6 @@ class Model(Drawable):
         for i, support in enumerate(self.supports):
             self._check_place(support.on, ("support", i, "on"), nodes=True, rigid=True)
             self._check_dimension(support.u, ("support", i, "u"), on=support.on)
-            if self.axisymmetric and len(support.u) == 3 and (support.u[0] or support.u[2]):
-                raise InputError(
-                    "moves a rigid body off the axis of revolution; expected 0 or free there", where=("support", i, "u")
-                )
         for i, foundation in enumerate(self.foundations):
             self._check_place(foundation.on, ("foundation", i, "on"), nodes=False)
         for i, load in enumerate(self.loads):
@@ -121,6 +117,8 @@ class Model(Drawable):
             self._check_contact(i, contact)
         for i, obstacle in enumerate(self.obstacles):
             self._check_obstacle(i, obstacle)
+        if self.axisymmetric:
+            self._check_revolution()
         held: tuple[Support | Foundation, ...] = (*self.supports, *self.foundations)
         named: dict[str, Sequence[Labelled]] = {"support": held, "load": self.loads, "contact": self.contacts}
         refuse_same_names(named | {"obstacle": self.obstacles, "bolt": self.bolts})
@@ -136,12 +134,27 @@ class Model(Drawable):
     @property
     def axisymmetric(self) -> bool:
         """Whether the coordinates are radius and height."""
-        return self.kind == "axisymmetric"
+        return revolves(self.kind)
+
+    @property
+    def twists(self) -> bool:
+        """Whether points move along the hoop, too."""
+        return self.kind == TWIST
 
     @property
     def axes(self) -> str:
-        """Letters of the directions: "xy", axisymmetric "rz", in space "xyz"."""
-        return "rz" if self.axisymmetric else "xyz"[: self.dimension]
+        """Letters of the components of displacements, see :func:`signorini.model.kind.axes`."""
+        return axes(self.kind)
+
+    @property
+    def components(self) -> int:
+        """Of a displacement: 2 or 3."""
+        return len(self.axes)
+
+    @property
+    def number_of_dofs(self) -> int:
+        """Displacements of all nodes of the mesh."""
+        return len(self.mesh.points) * self.components
 
     def body_of_cells(self) -> IntArray:
         """For every cell the index of its body, (m,)."""
@@ -186,10 +199,8 @@ class Model(Drawable):
         return np.array(self.thicknesses)[self.body_of_cells()]
 
     def _refuse_thickness(self, found: float, where: tuple[str | int, ...]) -> None:
-        why = {"axisymmetric": "an axisymmetric model has none: forces and areas are for the circumference"}
-        why["3d"] = "a model in space has none"
-        if self.kind in why:
-            raise InputError(f"is {found:g}; {why[self.kind]}", where=where)
+        if self.kind in WITHOUT_THICKNESS:
+            raise InputError(f"is {found:g}; {WITHOUT_THICKNESS[self.kind]}", where=where)
 
     def _check_bodies(self) -> None:
         known = self.mesh.bodies
@@ -207,40 +218,31 @@ class Model(Drawable):
                 raise InputError("has no G13 and G23; a model in space needs them", where=("body", i, "material"))
             if body.material.yields and body.name not in rigid:
                 body.check_flow(("body", i), self.kind, self.mesh.families(body.name))
-        if (count == 1).all():
-            return
-        cell = int(np.nonzero(count != 1)[0][0])
-        names = [name for name, cells in known.items() if cell in cells]
-        if count[cell]:
-            raise InputError(
-                f"{self.mesh.cell_name(cell)} belongs to several bodies: {', '.join(names)}", where=("body",), cell=cell
-            )
-        of = f"it is in {' and '.join(names)}" if names else "it is in no named part of the mesh"
-        raise InputError(
-            f"{self.mesh.cell_name(cell)} belongs to no body ({of}); give it a body and a material",
-            where=("body",),
-            cell=cell,
-        )
+        refuse_other_owners(self.mesh, count)
 
     def _check_load(self, i: int, load: Load) -> None:
         where = ("load", i, "on")
         if load.kind in BODY_LOADS:
             self._check_body_load(i, load)
-        elif load.kind in ("force", "nodal_forces") and load.spread == "traction":
+        elif load.kind in ("force", "nodal_forces", "torque") and load.spread == "traction":
             self._check_place(load.on, where, nodes=True, rigid=load.kind == "force")
         else:
             self._check_place(load.on, where, nodes=False)
         if load.nodal_forces is not None:
-            expected = (1 if not isinstance(load.on, str) else len(self.mesh.nodes_of(load.on)), self.dimension)
+            expected = (1 if not isinstance(load.on, str) else len(self.mesh.nodes_of(load.on)), self.components)
             if load.nodal_forces.shape != expected:
                 raise InputError(
                     f"has shape {load.nodal_forces.shape}; expected {expected}, one force for each of the nodes",
                     where=("load", i, "nodal_forces"),
                 )
         self._check_dimension(load.force, ("load", i, "force"), on=load.on)
-        for kind in ("traction", "bearing", "body_force", "gravity", "centre"):
+        for kind in ("traction", "body_force", "gravity"):
             if not callable(getattr(load, kind)):
                 self._check_dimension(getattr(load, kind), ("load", i, kind))
+        if load.torque is not None and not self.axisymmetric:
+            raise InputError("is for axisymmetric models with twist; expected a force", where=("load", i, "torque"))
+        for kind in ("bearing", "centre"):
+            self._check_point(getattr(load, kind), ("load", i, kind))
         if load.axis is not None and len(load.axis) != self.dimension:
             raise InputError(f"has {len(load.axis)} components; expected 3, in space", where=("load", i, "axis"))
         if load.axis is not None and self.dimension == 2:
@@ -264,18 +266,12 @@ class Model(Drawable):
                 f"has {len(load.temperature)} values; expected one per node of the mesh, {count}",
                 where=("load", i, "temperature"),
             )
-        if self.axisymmetric and load.gravity is not None and load.gravity[0] != 0.0:
-            raise InputError(
-                f"is {load.gravity}, which is not symmetric; expected it along the axis", where=("load", i, "gravity")
-            )
-        if self.axisymmetric and load.centre is not None:
-            raise InputError("an axisymmetric body rotates about its axis", where=("load", i, "centre"))
 
     def _check_contact(self, i: int, contact: Contact) -> None:
         try:
             contact.check_bodies([body.name for body in self.bodies if body.material.yields])
             contact.check_meshed(linked=bool(self.bolts or self.cyclic_symmetries))
-            if self.dimension == 2:
+            if self.components == 2:
                 contact.check_plane()
         except InputError as error:
             raise error.inside("contact", i) from error
@@ -306,10 +302,13 @@ class Model(Drawable):
             raise InputError(f"'{obstacle.name}' is a boundary of the mesh too", where=("obstacle", i, "name"))
         if not any(contact.mortar == obstacle.name for contact in self.contacts):
             raise InputError(f"'{obstacle.name}' is the mortar side of no contact", where=("obstacle", i, "name"))
-        if self.axisymmetric and (obstacle.u[0] != 0.0 or obstacle.rotation != 0.0):
-            raise InputError(
-                "moves off the axis of revolution; expected u = (0, ...) and rotation 0", where=("obstacle", i)
-            )
+
+    def _check_revolution(self) -> None:
+        rigid = {body.name for body in self.rigid_bodies}
+        check_rigid_motions(self.supports, self.obstacles, rigid, twists=self.twists)
+        check_loads(self.loads, self.cyclic_symmetries, twists=self.twists)
+        if self.twists:
+            check_twist(self.bodies, self.contacts)
 
     def _check_links(self) -> None:
         """Equations and rigid bodies."""
@@ -324,14 +323,12 @@ class Model(Drawable):
             taken.add(body.name)
             if body.on not in self.mesh.bodies:
                 self._check_place(body.on, (*where, "on"), nodes=True)
-            self._check_dimension(body.point, (*where, "point"))
+            self._check_point(body.point, (*where, "point"))
         for i, symmetry in enumerate(self.cyclic_symmetries):
             for key in ("first", "second"):
                 self._check_place(getattr(symmetry, key), ("cyclic_symmetry", i, key), nodes=True)
             if symmetry.point:
-                self._check_dimension(symmetry.point, ("cyclic_symmetry", i, "point"))
-            if self.axisymmetric:
-                raise InputError("an axisymmetric body is the same all around", where=("cyclic_symmetry", i))
+                self._check_point(symmetry.point, ("cyclic_symmetry", i, "point"))
         for i, equation in enumerate(self.equations):
             for k, (on, _, _) in enumerate(equation.terms):
                 if not isinstance(on, int):
@@ -341,7 +338,7 @@ class Model(Drawable):
         if not isinstance(on, str):
             if not nodes:
                 raise InputError(f"is the point {on}; expected a boundary", where=where)
-            self._check_dimension(on, where)
+            self._check_point(on, where)
             return
         bodies = {body.name for body in self.rigid_bodies} if rigid else set()
         known = set(self.mesh.boundaries) | (set(self.mesh.nodes) if nodes else set()) | bodies
@@ -351,12 +348,16 @@ class Model(Drawable):
             raise InputError(f"'{on}' is empty in the mesh", where=where)
 
     def _check_dimension(self, parts: Sequence[object] | None, where: tuple[str | int, ...], on: Place = "") -> None:
-        """Of a vector; a rigid body has rotations too."""
+        """Of a displacement or force; a rigid body has rotations too."""
         rigid = any(on == body.name for body in self.rigid_bodies)
         expected = directions(self.dimension) if rigid else self.axes
         if parts is not None and len(parts) != len(expected):
             words = f", one for each of {', '.join(expected)}" if rigid else ""
             raise InputError(f"has {len(parts)} components; expected {len(expected)}{words}", where=where)
+
+    def _check_point(self, parts: Sequence[object] | None, where: tuple[str | int, ...]) -> None:
+        if parts is not None and len(parts) != self.dimension:
+            raise InputError(f"has {len(parts)} components; expected {self.dimension}", where=where)
 
     def _check_steps(self) -> None:
         if not self.steps:
@@ -371,7 +372,7 @@ class Model(Drawable):
                 raise InputError("is given, but no contact wears", where=("step", i, "block"))
             if step.path == "exact":
                 for contact in self.contacts:
-                    contact.check_exact(("step", i, "path"), in_space=self.kind == "3d")
+                    contact.check_exact(("step", i, "path"), in_space=self.components == 3)
 
     def _check_fatigue(self) -> None:
         places = [*self.mesh.boundaries, *self.mesh.nodes, *(body.name for body in self.bodies)]

@@ -74,7 +74,7 @@ class Fields:
     @cached_property
     def space(self) -> Space:
         """The displacement space of the model's mesh."""
-        return make_space(self.model.mesh, axisymmetric=self.model.axisymmetric)
+        return make_space(self.model.mesh, kind=self.model.kind)
 
     def on(self, state: State) -> tuple[Space, Model]:
         """The space and the model on the mesh of a state, which may have moved with what is worn; the last is kept."""
@@ -82,7 +82,7 @@ class Fields:
             return self.space, self.model
         if self._moved is None or self._moved[0] is not state.places:
             model = replace(self.model, mesh=replace(self.model.mesh, points=state.places))
-            self._moved = state.places, model, make_space(model.mesh, axisymmetric=model.axisymmetric)
+            self._moved = state.places, model, make_space(model.mesh, kind=model.kind)
         return self._moved[2], self._moved[1]
 
     def stresses(self, state: State) -> list[BodyStress]:

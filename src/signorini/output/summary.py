@@ -43,7 +43,7 @@ def summary(history: History, seconds: Mapping[str, float], deck: str = "") -> d
         "size": {
             "nodes": len(model.mesh.points),
             "elements": model.mesh.number_of_cells,
-            "dofs": model.mesh.points.size,
+            "dofs": model.number_of_dofs,
             "contact_pairs": history.pairs,
         },
         "bodies": [body.name for body in model.bodies],

@@ -114,7 +114,7 @@ class Checkpoint(Short):
         """
         dofs = len(self.state.displacement)
         rigid = len(model.obstacles) + len(model.rigid_bodies)
-        own = model.mesh.points.size + 2 * model.dimension * rigid
+        own = model.number_of_dofs + 2 * model.components * rigid
         if dofs != own or self.mesh != digest(model.mesh):
             found = f"was computed on another mesh ({dofs} dofs; the model has {own})"
             raise InputError(f"{found}; expected the same mesh, moving obstacles and rigid bodies", where=_WHERE)

@@ -32,9 +32,9 @@ class ContactResult(Short):
     nonmortar, mortar : the sides as they were taken, an obstacle in words
     coupling : "nodes", "mortar", "node-to-segment" or "obstacle"
     node : (n,) node indices, from 0
-    points : (n, d) undeformed coordinates
-    normals, tangents : (n, d) unit vectors, in space (n, 2, 3) tangents with ``t1 x t2 = n``; the normal points from
-        the mortar side into the nonmortar body
+    points : (n, d) undeformed coordinates, with twist (n, 2)
+    normals, tangents : (n, d) unit vectors, in space (n, 2, 3) tangents with ``t1 x t2 = n``, with twist along the
+        meridian and the hoop; the normal points from the mortar side into the nonmortar body
     levers : (n, d, 1 or 3) moments about the origin of unit normal and tangential forces of every pair on the nonmortar
         body, where these act (of quadratic facets not at the corners alone), length
     area : (n,) tributary area
@@ -114,15 +114,28 @@ class ContactResult(Short):
         """Resultant moment on the nonmortar body about a point (d,), ``int (x - about) x t dA``, force times length.
 
         Of the forces as they act on all nodes of the facets, so that it balances those of loads and supports. A number
-        in the plane, counterclockwise positive; (3,) in space; of all of them, of the pressure or of the friction.
+        in the plane, counterclockwise positive; (3,) in space; with twist that about the axis, wherever the point is;
+        of all of them, of the pressure or of the friction.
         """
         parts = [0.0 if of == skipped else 1.0 for skipped in ("friction", "pressure")]
         tractions = np.column_stack([parts[0] * self.pressure, parts[1] * self.traction])
         total = np.einsum("k,ki,kim->m", self.area, tractions, self.levers)
+        if self.twists:
+            return np.asarray(total[0])
         place, force = np.asarray(about, float), parts[0] * self.normal_force + parts[1] * self.tangential_force
         if len(place) == 3:
             return np.asarray(total - np.cross(place, force))
         return np.asarray(total[0] - place[0] * force[1] + place[1] * force[0])
+
+    @property
+    def twists(self) -> bool:
+        """Whether it is one of bodies of revolution that twist: the third component goes round."""
+        return self.normals.shape[1] > self.points.shape[1]
+
+    @property
+    def torque(self) -> float:
+        """Moment about the axis on the nonmortar body, where bodies of revolution twist; elsewhere 0."""
+        return float(self.moment((0.0, 0.0))) if self.twists else 0.0
 
     @property
     def extent(self) -> tuple[Array, Array] | None:

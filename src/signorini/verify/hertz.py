@@ -15,9 +15,10 @@ from signorini.meshing.plane import Cells, quarter_disk
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact
+from signorini.model.kind import Kind
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh, join
-from signorini.model.model import Kind, Model
+from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.reference.hertz import HertzLine, contact_modulus
 from signorini.reference.hertz_point import HertzPoint

@@ -13,8 +13,8 @@ from signorini.api import solve
 from signorini.gallery.large_bodies import graded_lines
 from signorini.gallery.yielding import NU, SHEAR_STRENGTH, E, indented_block, rolled_half_plane, round_body
 from signorini.meshing.plane import Cells
+from signorini.model.kind import Kind
 from signorini.model.material import Elastic
-from signorini.model.model import Kind
 from signorini.model.obstacle import Circle, Profile
 from signorini.model.plastic import Plastic
 from signorini.model.step import Step

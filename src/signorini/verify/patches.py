@@ -16,8 +16,9 @@ from signorini.gallery.blocks import block_on_foundation, curved_blocks, four_bl
 from signorini.meshing.plane import Cells
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
+from signorini.model.kind import Kind
 from signorini.model.material import Elastic
-from signorini.model.model import Kind, Model
+from signorini.model.model import Model
 from signorini.model.step import Step
 from signorini.solution.history import History
 from signorini.verify.check import Check, Row, checks_of, farthest
@@ -201,7 +202,7 @@ def _stress_error(history: History, stress: tuple[float, float], angle: float) -
     """How far any nodal stress in the plane is from two principal ones, turned, over the larger one."""
     model, Q = history.model, _rotation(angle)
     exact = Q.T @ np.diag(stress) @ Q
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    space = make_space(model.mesh, kind=model.kind)
     found = np.vstack([b.stress for b in body_stresses(space, model, history.last.displacement)])[:, [0, 1, 3]]
     wrong = np.abs(found - [exact[0, 0], exact[1, 1], exact[0, 1]]).max() / np.abs(stress).max()
     return "largest error of the stress / its size", wrong, 0.0, _EXACT

@@ -22,8 +22,8 @@ from signorini.gallery.yielding import (
 )
 from signorini.meshing.plane import Cells
 from signorini.model.body import Body, Formulation
+from signorini.model.kind import Kind
 from signorini.model.material import Elastic
-from signorini.model.model import Kind
 from signorini.model.step import Step
 from signorini.reference.plasticity import HillTube, YieldingBeam, yielding_press_fit_pressure
 from signorini.solution.history import History

@@ -12,7 +12,7 @@ from scipy.optimize import minimize_scalar
 from signorini.arrays import Array
 from signorini.engine.solve import solve
 from signorini.gallery.half_planes import punch, square_on_half_plane
-from signorini.model.model import Kind
+from signorini.model.kind import Kind
 from signorini.reference.corners import bonded_corner, frictionless_corner
 from signorini.solution.results import ContactResult
 from signorini.verify.check import Check, checks_of

@@ -14,9 +14,10 @@ from signorini.meshing.plane import Cells, annulus
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
+from signorini.model.kind import Kind
 from signorini.model.material import Elastic
 from signorini.model.mesh import join
-from signorini.model.model import Kind, Model
+from signorini.model.model import Model
 from signorini.reference.lame import hollow_sphere, press_fit_pressure, thick_cylinder
 from signorini.verify.check import Check, checks_of, farthest
 

@@ -29,6 +29,7 @@ from signorini.verify import (
     sliding,
     solids,
     space,
+    twist,
     vibration,
     wear,
 )
@@ -103,6 +104,10 @@ QUICK: tuple[Case, ...] = (
     closures.block_on_a_gasket,
     closures.gasket_in_a_cycle,
     closures.rough_interface,
+    twist.torsion_of_a_shaft,
+    twist.torque_of_a_press_fit,
+    twist.sticking_punch,
+    twist.ball_that_turns,
 )
 SLOW: tuple[Case, ...] = (
     cylinder.small_load,

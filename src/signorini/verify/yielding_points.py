@@ -63,7 +63,7 @@ def yielding_points(history: History, step: int = -1) -> YieldingPoints:
     end, model = history.steps[step] if history.steps else None, history.model
     if end is None or end.plastic is None:
         raise ValueError("no step was finished, or no body yields")
-    bodies = yielding_bodies(make_space(model.mesh, axisymmetric=model.kind == "axisymmetric"), model)
+    bodies = yielding_bodies(make_space(model.mesh, kind=model.kind), model)
     u, plastic, cold = end.displacement.ravel(), end.plastic.state, bodies.cold()
     stress = deviator(bodies, u, plastic.strain, cold)
     volume = bodies.dilatation(full_strains(bodies, u, plastic.strain, cold))

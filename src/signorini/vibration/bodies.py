@@ -81,7 +81,7 @@ def vibrating_bodies(model: Model, end: Checkpoint | None = None) -> VibratingBo
     model = with_bolts(model)
     _refuse(model)
     carriers = len(model.obstacles) + len(model.rigid_bodies)
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric, obstacles=carriers, linked=linked_nodes(model))
+    space = make_space(model.mesh, kind=model.kind, obstacles=carriers, linked=linked_nodes(model))
     standing = None if end is None else end.standing
     constraints = make_constraints(space, model, without=standing.released if standing else ())
     _refuse_massless(model, space, constraints)

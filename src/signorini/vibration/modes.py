@@ -10,6 +10,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.checks import choice, whole
 from signorini.errors import InputError, SolveFailed
+from signorini.fem.space import Space
 from signorini.linalg.definite import ROUNDOFF
 from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
@@ -122,8 +123,8 @@ def _measured(inverse: JointInverse, joint: str, pairs: Pairs, missed: int | Non
     return NaturalModes(
         joint=joint,
         squares=squares[order],
-        shapes=_at_nodes(u, space.mesh.points.shape)[order],
-        forces=_at_nodes(bodies.mass @ u, space.mesh.points.shape)[order],
+        shapes=_at_nodes(u, space)[order],
+        forces=_at_nodes(bodies.mass @ u, space)[order],
         residuals=residuals[order],
         orthogonality=float(products.max(initial=0.0)),
         parting=float((parting / np.abs(vectors).max(axis=0)).max()),
@@ -137,6 +138,6 @@ def _signs(vectors: Array) -> Array:
     return np.where(largest < 0.0, -1.0, 1.0)
 
 
-def _at_nodes(values: Array, shape: tuple[int, ...]) -> Array:
+def _at_nodes(values: Array, space: Space) -> Array:
     """(k, nodes, d) Of dofs (dofs, k), without those of what is rigid."""
-    return np.ascontiguousarray(values[: shape[0] * shape[1]].T.reshape(-1, *shape))
+    return np.ascontiguousarray(values[: space.dofs_of_nodes].T.reshape(-1, len(space.mesh.points), space.components))

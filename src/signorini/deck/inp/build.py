@@ -34,9 +34,10 @@ from signorini.deck.inp.syntax import flatten, read_cards
 from signorini.deck.tables import FIELDS
 from signorini.errors import InputError, Where
 from signorini.model.body import Body
+from signorini.model.kind import Kind
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import NODES_PER_CELL, Mesh
-from signorini.model.model import Kind, Model
+from signorini.model.model import Model
 from signorini.model.step import Step
 from signorini.sources import Reach
 

@@ -15,8 +15,8 @@ from signorini.deck.error import DeckError
 from signorini.deck.inp.card import NUMBER_LIMIT, Card, Scope
 from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.numbers import Numbering, number_table, record_table
+from signorini.model.kind import Kind
 from signorini.model.mesh import CORNERS, NODES_PER_CELL
-from signorini.model.model import Kind
 
 _PLANES = {"CPE": "plane strain", "CPS": "plane stress", "CAX": "axisymmetric"}
 _PLANE = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8"}

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies of revolution that turn about their axis: closed forms, and what they share with bodies that do not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.fem.space import make_space
+from signorini.fem.stiffness import stiffness
+from signorini.fem.stress import body_stresses
+from signorini.gallery.twisted import STEEL, fit_under_torque, shaft_in_torsion
+from signorini.model.kind import TWIST
+from signorini.reference.torsion import shaft_twist
+
+
+@pytest.mark.parametrize(
+    ("cells", "formulation"),
+    [
+        *((cells, "standard") for cells in ("quad", "quad8", "quad9", "triangle", "triangle6")),
+        ("quad", "incompatible"),
+        *((cells, "mean dilatation") for cells in ("quad", "quad8", "triangle6")),
+    ],
+)
+def test_torsion_of_a_shaft(cells, formulation):
+    model = shaft_in_torsion(cells=cells, n=12 if cells == "triangle" else 2)
+    model = replace(model, bodies=[replace(model.bodies[0], formulation=formulation)])
+    found = sg.solve(model).last
+    exact = shaft_twist(torque=1000.0, shear_modulus=STEEL.shear_modulus, inner=5.0, outer=10.0, length=8.0)
+    r, z = model.mesh.points.T
+    tolerance = 5e-3 if cells == "triangle" else 1e-12  # their functions do not hold r z
+    np.testing.assert_allclose(found.displacement[:, 2], exact * r * z / 8.0, atol=tolerance * 10.0 * exact)
+    np.testing.assert_allclose(found.displacement[:, :2], 0.0, atol=1e-15)
+    np.testing.assert_allclose(found.reactions["bottom"], [0.0, 0.0, -1000.0], atol=1e-8)
+    (stress,) = body_stresses(make_space(model.mesh, kind=TWIST), model, found.displacement)
+    shear = STEEL.shear_modulus * exact / 8.0 * r
+    if cells != "triangle":
+        np.testing.assert_allclose(stress.stress[:, 4], shear, rtol=1e-9)
+        np.testing.assert_allclose(stress.stress[:, [0, 1, 2, 3, 5]], 0.0, atol=1e-9 * shear.max())
+    assert found.strain_energy == pytest.approx(0.5 * 1000.0 * exact, rel=4e-3)
+
+
+def test_what_turns_as_one_is_not_strained():
+    model = shaft_in_torsion(cells="quad8")
+    space = make_space(model.mesh, kind=TWIST)
+    u = np.zeros((len(model.mesh.points), 3))
+    u[:, 1], u[:, 2] = 0.5, 0.1 * model.mesh.points[:, 0]
+    K = stiffness(space, model)
+    assert np.abs(K @ u.ravel()).max() < 1e-10 * abs(K).max()
+
+
+def test_without_twist_it_is_the_axisymmetric_model():
+    """Temperature, gravity, interference, friction and steps: what has no part around the axis is as it was."""
+    twisted = fit_under_torque(pull=0.01, turn=0.0, cells="quad8", n=(3, 2))
+    heavy = replace(STEEL, density=8e-9, expansion=1.2e-5)
+    twisted = replace(
+        twisted,
+        bodies=[replace(body, material=heavy) for body in twisted.bodies],
+        loads=[
+            sg.Load("hub", temperature=40.0, name="heat"),
+            sg.Load("shaft", gravity=(0.0, -9810.0, 0.0), name="weight"),
+        ],
+    )
+    plane = replace(
+        twisted,
+        kind="axisymmetric",
+        supports=[sg.Support("hub.right", u=(None, 0.0), name="held"), sg.Support("core", u=(None, 0.01, 0.0))],
+        loads=[twisted.loads[0], replace(twisted.loads[1], gravity=(0.0, -9810.0))],
+        steps=[replace(step, increments=3, scale={"heat": 1.0, "weight": 1.0, **step.scale}) for step in twisted.steps],
+    )
+    twisted = replace(twisted, steps=plane.steps)
+    one, other = sg.solve(plane), sg.solve(twisted)
+    for a, b in zip(one.steps, other.steps, strict=True):
+        np.testing.assert_allclose(b.displacement[:, :2], a.displacement, atol=1e-9 * np.abs(a.displacement).max())
+        np.testing.assert_allclose(b.displacement[:, 2], 0.0, atol=1e-15)
+        np.testing.assert_allclose(b.contacts[0].pressure, a.contacts[0].pressure, rtol=1e-8)
+        np.testing.assert_allclose(b.contacts[0].traction[:, 0], a.contacts[0].traction, atol=1e-7)
+        assert b.work == pytest.approx(a.work, rel=1e-8)
+        assert b.dissipation == pytest.approx(a.dissipation, rel=1e-6, abs=1e-12)
+
+
+@pytest.mark.parametrize("contact", [{}, {"coupling": "mortar"}, {"facets": 16}, {"coupling": "node-to-segment"}])
+def test_torque_and_force_at_once(contact):
+    """Sides that match and not: the fit holds what Coulomb's circle, or the polygon in it, allows; moments balance."""
+    found = sg.solve(fit_under_torque(turn=0.003, pull=0.02, n=(4, 3), **contact)).last
+    fit, (_, pull, torque) = found.contacts[0], found.reactions["held"]
+    held = np.hypot(torque / 10.0, pull) / (0.2 * float(fit.pressure @ fit.area))
+    low = np.cos(np.pi / 16) if "facets" in contact else 1.0 - 1e-6
+    assert low <= held <= 1.0 + 1e-9
+    assert fit.torque == pytest.approx(torque, rel=1e-9)
+    assert found.rigid_bodies["core"].moment == pytest.approx(-torque, rel=1e-9)
+    assert set(fit.status) == {"slip"}
+    assert found.certificate.passed
+
+
+def test_tied_and_sticking_fits_turn_as_one():
+    """The fit sticks: the same twist as of one body, up to what a mesh leaves."""
+    stuck, tied = (
+        sg.solve(fit_under_torque(turn=1e-4, friction=kind, interference=overlap, steps=(sg.Step(),)))
+        for kind, overlap in (("stick", 0.01), ("tied", 0.0))
+    )
+    assert stuck.last.reactions["held"][2] == pytest.approx(tied.last.reactions["held"][2], rel=1e-9)
