@@ -101,3 +101,17 @@ def test_tied_and_sticking_fits_turn_as_one():
         for kind, overlap in (("stick", 0.01), ("tied", 0.0))
     )
     assert stuck.last.reactions["held"][2] == pytest.approx(tied.last.reactions["held"][2], rel=1e-9)
+
+
+def test_twist_that_supports_prescribe():
+    """Node by node by a formula of the radius, and as a number: the closed form, and what holds it."""
+    model = shaft_in_torsion()
+    turned = replace(
+        model, loads=[], supports=[*model.supports, sg.Support("top", u=(None, None, "1e-5*x"), name="top")]
+    )
+    torque = 1e-5 / shaft_twist(torque=1.0, shear_modulus=STEEL.shear_modulus, inner=5.0, outer=10.0, length=8.0)
+    found = sg.solve(turned).last
+    assert found.reactions["top"][2] == pytest.approx(torque, rel=1e-12)
+    assert found.work == pytest.approx(0.5 * torque * 1e-5, rel=1e-12)
+    corner = replace(turned, supports=[*model.supports, sg.Support((10.0, 8.0), u=(None, None, 1e-4), name="top")])
+    assert sg.solve(corner).last.displacement[-1, 2] == pytest.approx(1e-4, rel=1e-12)

@@ -105,7 +105,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         parts=parts,
         motions=motions,
         floating=floating_motions(motions, constraints, interface),
-        frames=turning_bodies(space, model, parts) if model.slides else BodyFrames(dimension=space.dimension),
+        frames=turning_bodies(space, model, parts) if model.slides else BodyFrames(dimension=space.components),
         loading=loading,
         scale=data_scale(space, model, loading, interface),
     )

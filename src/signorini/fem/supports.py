@@ -216,7 +216,8 @@ def _values(space: Space, model: Model, i: int, axis: int, dofs: IntArray) -> Ar
     part = support.u[axis]
     assert part is not None
     if isinstance(part, float | int):
-        return np.full(len(dofs), part * arm(model) if axis >= space.dimension else part)  # of rotations: lengths
+        turns = axis >= space.dimension and bool((dofs >= space.dofs_of_nodes).any())
+        return np.full(len(dofs), part * arm(model) if turns else part)  # of rotations: lengths
     if (dofs >= space.dofs_of_nodes).any():
         raise InputError("varies, but a rigid body moves as one; expected a number", where=where)
     nodes = dofs // space.components
