@@ -50,6 +50,7 @@ _WHY = {
     "fricloop": _LARGE,
     "punch1": "a curved punch of 3 x 3 quadratic faces that touches a few nodes: far from finer meshes in both",
     "plate": "reduced integration; one quadratic edge in contact",
+    "thread": "quadratic edges in contact and tied, of which one ends inside another; not taken apart further",
     "beamcontact": "curved sides of coarse quadratic and linear faces: goes with their size, see below",
 }
 """What is known of the differences, from the columns and from finer meshes."""

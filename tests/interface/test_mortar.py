@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import signorini as sg
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.space import make_space
@@ -173,3 +174,30 @@ def test_sides_too_far_apart_are_refused(lower, said):
     mesh = join({"upper": rectangle(x=[0, 0.5, 1], y=[0, 1]), "lower": rectangle(**{"x": [0, 1], **lower})})
     with pytest.raises(InputError, match=said):
         coupled(mesh)
+
+
+@pytest.mark.parametrize("cells", ["quad", "quad8"])
+@pytest.mark.parametrize("n", [2, 3])
+def test_a_tie_of_bodies_that_are_drawn_over_each_other_holds_what_lies_in_one_place(n, cells):
+    """Bodies side by side in depth, tied along one edge of both: a plate of both thicknesses, pulled evenly."""
+    plates = {
+        "lower": sg.rectangle(x=[0.0, 0.5, 1.0], y=[0.0, 0.4, 1.0], cells=cells),
+        "other": sg.rectangle(width=1.0, height=1.0, nx=n, ny=2, cells=cells),
+    }
+    model = sg.Model(
+        sg.join(plates),
+        kind="plane stress",
+        bodies=[sg.Body(name, sg.Elastic(E=100.0, nu=0.0)) for name in plates],
+        supports=[sg.Support("other.top", u=(None, 0.0)), sg.Support("other.left", u=(0.0, None))]
+        + [sg.Support("lower.left", u=(0.0, None))],
+        loads=[sg.Load("lower.top", traction=(0.0, 2.0))],
+        contacts=[sg.Contact("lower.bottom", "other.bottom", friction="tied")],
+    )
+    step = sg.solve(model).steps[-1]
+    # the other plate is pressed by as much as the lower one is pulled: its lower edge goes up, the upper one doubly
+    top = model.mesh.nodes_of("lower.top")
+    np.testing.assert_allclose(step.displacement[top, 1], 2.0 * 2.0 / 100.0, rtol=1e-10)
+    if cells == "quad":
+        loose = replace(model, contacts=[sg.Contact("lower.bottom", "other.bottom", friction=0.3)])
+        with pytest.raises(InputError, match=r"do not face each other"):
+            sg.solve(loose)

@@ -8,6 +8,7 @@ import pytest
 import signorini as sg
 from signorini.fem.mass import mass_matrix
 from signorini.fem.space import make_space
+from signorini.gallery.sectors import ring_on_shaft
 from signorini.vibration import eigen
 from tests.helpers.families import FAMILIES, KINDS, MIXED, block
 
@@ -257,16 +258,16 @@ def test_what_has_no_modes_is_named(ask, words):
     assert str(error.value) == words
 
 
-def test_cyclic_symmetry_and_sides_that_slide_far_are_refused():
-    disc = sg.annulus(inner=1.0, outer=2.0, n_radial=2, n_angular=4, angle=60.0, centre=(0.0, 0.0))
-    (name,) = disc.bodies
-    sector = sg.Model(
-        disc, bodies=[sg.Body(name, STEEL)], cyclic_symmetries=[sg.CyclicSymmetry("start", "end", sectors=6)]
-    )
-    with pytest.raises(
-        sg.InputError, match=r"cyclic_symmetry\[0\]: gives modes alone that are the same in every sector"
-    ):
-        sg.natural_modes(sector, 2)
+def test_modes_of_a_sector_are_among_those_of_the_whole():
+    """Those that are the same in every sector; where its sides cut a joint, too."""
+    whole, sector = (sg.solve(ring_on_shaft(whole=every)) for every in (True, False))
+    for joint in ("stuck", "slipping"):
+        every, own = (sg.natural_modes(of, k, joint=joint) for of, k in ((whole, 24), (sector, 3)))
+        apart = np.abs(every.squares - own.squares[:, None]).min(axis=1)
+        assert apart == pytest.approx(0.0, abs=1e-9 * every.squares[-1])
+
+
+def test_sides_that_slide_far_are_refused():
     small = blocks(n=2)
     far = replace(small, contacts=[replace(small.contacts[0], sliding="finite")])
     with pytest.raises(sg.InputError, match=r'contact\[0\].sliding: is "finite"; modes know pairs that stay'):

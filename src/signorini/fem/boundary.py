@@ -14,7 +14,7 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import Where
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.space import Space
-from signorini.meshing.facets import outer_facets
+from signorini.meshing.facets import outer_facets, turned_facet
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -49,6 +49,14 @@ class Boundary:
         kinds = [np.asarray(nodes, np.int64) for nodes in facets]
         none = np.full(max(map(len, kinds)), -1)
         return cls(points=x, blocks=tuple(FacetBlock(facets=f, points=x[f], cells=none[: len(f)]) for f in kinds))
+
+    def turned(self) -> Boundary:
+        """Boundary of the same facets, seen from the other side: normals point into the body."""
+        blocks = []
+        for block in self.blocks:
+            order = turned_facet(block.corners, block.count)
+            blocks.append(FacetBlock(facets=block.facets[:, order], points=block.points[:, order], cells=block.cells))
+        return Boundary(points=self.points, blocks=tuple(blocks))
 
     @property
     def dimension(self) -> int:

@@ -10,6 +10,7 @@ from signorini.arrays import Array, BoolArray, IntArray, extent
 from signorini.fem.boundary import Boundary
 
 FACING = -0.05  # cosine between outward normals: from here on two facets look at each other
+_SAME_PLACE_TOL = 1e-6  # of the longest facet: how far apart sides are that lie in each other
 
 
 def search_distance(nonmortar: Boundary, mortar: Boundary, search: float | None) -> float:
@@ -23,6 +24,17 @@ def search_distance(nonmortar: Boundary, mortar: Boundary, search: float | None)
     if search is not None:
         return search
     return 0.5 * min(float(np.linalg.norm(extent(side.points[side.nodes]))) for side in (nonmortar, mortar))
+
+
+def in_one_place(nonmortar: Boundary, mortar: Boundary) -> bool:
+    """Whether sides lie in each other and look the same way, as bodies do that are drawn over each other."""
+    distance, nearest = KDTree(mortar.points[mortar.nodes]).query(nonmortar.points[nonmortar.nodes])
+    normals = mortar.nodal_normals[nearest]
+    if (np.sum(nonmortar.nodal_normals * normals, axis=1) < -FACING).any():
+        return False
+    across = nonmortar.points[nonmortar.nodes] - mortar.points[mortar.nodes[nearest]]
+    apart, size = np.abs(np.sum(across * normals, axis=1)), float(mortar.lengths.max())
+    return bool((apart <= _SAME_PLACE_TOL * size).all() and (distance <= size).all())
 
 
 def near(

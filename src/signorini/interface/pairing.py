@@ -21,7 +21,7 @@ from signorini.fem.supports import Constraints
 from signorini.fem.varying import at_nodes
 from signorini.interface.corners import corner_coupling
 from signorini.interface.coupling import Coupling, FacetGaps, geometric_gap, joined_gaps, point_coupling
-from signorini.interface.facing import search_distance
+from signorini.interface.facing import in_one_place, search_distance
 from signorini.interface.frames import in_symmetry_planes, symmetric_partners
 from signorini.interface.gaps import initial_gaps, normal_gap, refuse_deep_overlap, resolved
 from signorini.interface.matching import facing_cells, match_nodes
@@ -196,6 +196,8 @@ def _on_side(
             f"both sides hold node {space.mesh.labels[shared[0]]}; bodies that touch need nodes of their own",
             where=where,
         )
+    if contact.tied and in_one_place(side, mortar):
+        mortar = mortar.turned()
     coupling, how = _couple(space, model, side, mortar, contact, where)
     _refuse_no_normal(space, coupling, where)
     whole, coupling = coupling, replace(coupling, normal_areas=in_symmetry_planes(space, constraints, coupling))

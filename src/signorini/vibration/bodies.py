@@ -17,6 +17,7 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import Interface, make_interface, pairs_of
+from signorini.interface.sectors import sector_interface
 from signorini.law.states import OPEN
 from signorini.model.model import Model
 from signorini.model.modes import SLIPPING, STUCK
@@ -86,7 +87,7 @@ def vibrating_bodies(model: Model, end: Checkpoint | None = None) -> VibratingBo
     constraints = make_constraints(space, model, without=standing.released if standing else ())
     _refuse_massless(model, space, constraints)
     always = make_constraints(space, model, without=standing.loosened) if standing else constraints
-    interface = make_interface(space, model, always)
+    interface = (sector_interface if model.cyclic_symmetries else make_interface)(space, model, always)
     if end is not None:
         end.check(model, interface)
     K, mass, T = stiffness(space, model), mass_matrix(space, model), constraints.transform
@@ -108,9 +109,6 @@ def vibrating_bodies(model: Model, end: Checkpoint | None = None) -> VibratingBo
 
 def _refuse(model: Model) -> None:
     """What no mode is computed of."""
-    if model.cyclic_symmetries:
-        words = "gives modes alone that are the same in every sector; expected the whole body"
-        raise InputError(words, where=("cyclic_symmetry", 0))
     if model.slides:
         i = next(i for i, contact in enumerate(model.contacts) if contact.slides)
         raise InputError('is "finite"; modes know pairs that stay', where=("contact", i, "sliding"))

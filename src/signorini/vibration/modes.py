@@ -40,7 +40,7 @@ def natural_modes(of: Model | History, number: int, *, joint: str = STUCK) -> Na
     ------
     InputError
         If a body has no density, the history finished no step, there are fewer modes, or the model has something that
-        modes do not know: cyclic symmetry, contacts that slide far, rigid obstacles that move freely.
+        modes do not know: contacts that slide far, rigid obstacles that move freely.
     SolveFailed
         If the modes found fail their certificate.
 
