@@ -151,6 +151,9 @@ _HELD_AXES = {  # by the words of Abaqus for them
     "XSYMM": (1, 5, 6),
     "YSYMM": (2, 4, 6),
     "ZSYMM": (3, 4, 5),
+    "XASYMM": (2, 3, 4),
+    "YASYMM": (1, 3, 5),
+    "ZASYMM": (1, 2, 6),
 }
 
 
