@@ -56,7 +56,9 @@ CORE = {
     "plasticity",
     "solution",
 }
-BELOW_CLI = BASE | CORE | {"engine", "vibration", "deck", "output", "plot", "inspection", "report", "reference"}
+BELOW_CLI = (
+    BASE | CORE | {"engine", "vibration", "derivative", "deck", "output", "plot", "inspection", "report", "reference"}
+)
 
 # folder or file: what it may import besides itself and the base
 ALLOWED = {
@@ -75,6 +77,7 @@ ALLOWED = {
     "solution": {"law", "model", "fem", "interface", "plasticity"},
     "engine": CORE,
     "vibration": CORE | {"engine"},
+    "derivative": CORE | {"engine"},
     "deck": {"law", "fatigue", "model", "meshing", "fem"},
     "output": {"solution", "law", "fatigue", "model", "meshing", "fem", "plasticity"},
     "plot": {"solution", "law", "model", "output"},

@@ -16,6 +16,18 @@ if TYPE_CHECKING:
     from signorini import fatigue, lcp
     from signorini.api import Solution, load, solve
     from signorini.deck import read
+    from signorini.derivative.outputs import (
+        displacement,
+        dissipation,
+        force,
+        gap,
+        halfwidth,
+        moment,
+        motion,
+        pressure,
+        stress,
+        traction,
+    )
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
     from signorini.inspection.check import check
@@ -96,18 +108,26 @@ __all__ = [
     "box",
     "check",
     "cut",
+    "displacement",
+    "dissipation",
     "extruded",
     "fatigue",
+    "force",
+    "gap",
     "half_disk",
+    "halfwidth",
     "join",
     "joint_damping",
     "lcp",
     "load",
     "mesh_profile",
     "mesh_surface",
+    "moment",
+    "motion",
     "natural_modes",
     "paper",
     "prepare",
+    "pressure",
     "quarter_disk",
     "read",
     "read_mesh",
@@ -117,11 +137,25 @@ __all__ = [
     "rectangle",
     "section",
     "solve",
+    "stress",
+    "traction",
 ]
 
 _HOMES = {
     "signorini.api": ("Solution", "load", "solve"),
     "signorini.deck": ("read",),
+    "signorini.derivative.outputs": (
+        "displacement",
+        "dissipation",
+        "force",
+        "gap",
+        "halfwidth",
+        "moment",
+        "motion",
+        "pressure",
+        "stress",
+        "traction",
+    ),
     "signorini.inspection.check": ("check",),
     "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
     "signorini.law.closure": ("Closure",),

@@ -14,11 +14,13 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import Array
 from signorini.clock import Clock
+from signorini.derivative.differentiable import DifferentiableHistory, tape_of
 from signorini.engine.fatigue import assess_fatigue
 from signorini.engine.fatigue_places import probe_of
 from signorini.engine.solve import raise_failure
 from signorini.engine.solve import solve as solve_history
 from signorini.engine.stress_history import stress_history
+from signorini.engine.tape import Tape
 from signorini.errors import InputError, one_of
 from signorini.fatigue.criteria import FatigueCriterion
 from signorini.fem.path import PathResult, along
@@ -53,7 +55,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Solution(History):
+class Solution(DifferentiableHistory):
     """A solved load history; see :class:`signorini.solution.history.History` for its fields.
 
     Printing it gives the table of forces, pressures, states and the certificate.
@@ -292,6 +294,7 @@ def solve(
     wellposed: bool = False,
     clock: Clock | None = None,
     after_step: Callable[[History], None] | None = None,
+    tape: bool = False,
 ) -> Solution:
     """Solve every step of a model and certify every increment.
 
@@ -307,6 +310,8 @@ def solve(
     wellposed : whether to ask if the solution is the only one: ``solution.wellposedness``
     clock : counts the seconds and tells progress
     after_step : is given what is finished after every step but the last, to keep it
+    tape : whether to keep the history as it was followed, in memory, for `Solution.derivative`; with ``start`` that of
+        a solution with a tape, too
 
     Raises
     ------
@@ -327,6 +332,7 @@ def solve(
     >>> sg.solve(model).contact("bottom").pressure.round(12)
     array([3., 3., 3.])
     """
+    kept = tape_of(start) if tape else None
     history = solve_history(
         model,
         start=_checkpoint(start),
@@ -336,8 +342,9 @@ def solve(
         wellposed=wellposed,
         clock=clock,
         after_step=after_step,
+        tape=kept,
     )
-    return dressed(history, raise_on_failure)
+    return dressed(history, raise_on_failure, kept)
 
 
 def _checkpoint(start: Start | None) -> Checkpoint | None:
@@ -362,9 +369,16 @@ def load(path: str | Path) -> Solution:
     return dressed(read_results(Path(path)), raise_on_failure=False)
 
 
-def dressed(history: History, raise_on_failure: bool) -> Solution:
-    """A history that prints, writes and draws itself; ``raise_on_failure``: unless it was not solved."""
-    solution = Solution(**{name: getattr(history, name) for name in History.__dataclass_fields__})
+def dressed(history: History, raise_on_failure: bool, tape: Tape | None = None) -> Solution:
+    """A history that prints, writes and draws itself.
+
+    Parameters
+    ----------
+    history : what was solved
+    raise_on_failure : whether to raise what ended it before its end
+    tape : of it, where it was asked for
+    """
+    solution = Solution(**{name: getattr(history, name) for name in History.__dataclass_fields__}, tape=tape)
     if raise_on_failure:
         raise_failure(solution)
     return solution

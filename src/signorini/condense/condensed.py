@@ -101,6 +101,40 @@ class Condensed:
         free = self.root * (self.response.moved(load).reshape(offset.shape) + offset)
         return self.image.load(free.ravel() - self._leaning @ resultant, resultant)
 
+    def free(self, motion: Array, resultant: Array) -> Array:
+        """(d a + k,) Scaled motions of the pairs without their rigid part, and scaled resultants: linear in both.
+
+        Parameters
+        ----------
+        motion : (d, a) of the pairs where no force acts on them, length
+        resultant : (k,) work of the loads on the rigid motions
+        """
+        coefficients, R = self._basis.coefficients(resultant), self.image.R
+        c = (self.root * motion).ravel() - self._leaning @ coefficients
+        return np.concatenate([c - R @ (R.T @ c), coefficients])
+
+    def free_transposed(self, free: Array) -> tuple[Array, Array]:
+        """The transpose of `free`: a functional (d a + k,) of its result in motions (d, a) and resultants (k,)."""
+        R, rows = self.image.R, self.compliance.size
+        c = free[:rows] - R @ (R.T @ free[:rows])
+        resultant: Array = free[rows:] - self._leaning.T @ c
+        if len(resultant):
+            resultant = scipy.linalg.solve_triangular(self._basis.triangle, resultant)
+        return self.root * c.reshape(self.compliance.shape), resultant
+
+    def travel(self, left: Array) -> Array:
+        """(k,) Rigid motion of relative displacements (d a,) of the pairs, length, beyond what deforms the bodies.
+
+        Of several at once (k, p) of (d a, p).
+        """
+        scaled = (np.tile(self.root, len(self.compliance)) * left.T).T
+        return np.asarray(scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ scaled))
+
+    def travel_transposed(self, travel: Array) -> Array:
+        """(d a,) The transpose of `travel`."""
+        seen = self._basis.R @ scipy.linalg.solve_triangular(self._basis.triangle, travel, trans=1)
+        return np.tile(self.root, len(self.compliance)) * seen
+
     def of_gaps(self, gap: Array) -> Array:
         """What gaps (a,), length, of the active pairs add to b: nothing of the bodies is asked."""
         moved = np.zeros_like(self.compliance)

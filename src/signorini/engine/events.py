@@ -25,7 +25,7 @@ from signorini.engine.path_states import (
     right_hand_side,
     tangential,
 )
-from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined, keep
+from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined, keep, leg_of
 from signorini.errors import SolveFailed, told
 from signorini.friction.history import Landing, PathSettings, PathState, Segment
 from signorini.friction.overload import Overload
@@ -238,6 +238,7 @@ def _part_along(path: _Path) -> FollowedPart:
         events=_events(path),
         notes=tuple(f"{part.where}: {spent}" for spent in segment.spent),
         until=partial(_until, path) if path.stops is None else None,
+        legs=(leg_of(part, after, start=path.start, segment=segment),) if path.stops is None and not path.lines else (),
     )
 
 

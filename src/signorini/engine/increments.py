@@ -12,7 +12,7 @@ from signorini.arrays import Array, IntArray, frozen
 from signorini.attempt import MethodRun
 from signorini.engine.increment import Increment, IncrementAnswer
 from signorini.engine.prepare import Prepared
-from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, keep
+from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, keep, leg_of
 from signorini.errors import SolveFailed, told
 from signorini.fem.rigid import describe_motion
 from signorini.law.states import OPEN, STICK
@@ -58,6 +58,7 @@ def follow_increments(part: StepPart, number: int) -> FollowedPart:
             certificates=tuple(certificates),
             trace=tuple(trace),
             snapshots=tuple(snapshots),
+            legs=(leg_of(part, state, states=tuple(shot.state for shot in snapshots)),),
         )
 
     last: State | None = None

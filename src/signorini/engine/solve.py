@@ -30,6 +30,7 @@ from signorini.engine.step_parts import (
     straight_parts,
 )
 from signorini.engine.support_changes import at_the_end, handed_over, refuse_moved
+from signorini.engine.tape import Tape
 from signorini.engine.ways import follow_part
 from signorini.engine.wear_steps import follow_wearing
 from signorini.engine.wellposed import assess
@@ -63,6 +64,7 @@ def solve(
     wellposed: bool = False,
     clock: Clock | None = None,
     after_step: Callable[[History], None] | None = None,
+    tape: Tape | None = None,
 ) -> History:
     """Solve every step of a model and certify every increment.
 
@@ -70,10 +72,11 @@ def solve(
     ----------
     model, start, backend, settings, raise_on_failure, wellposed, clock, after_step : as of
         :func:`signorini.api.solve`, which dresses it
+    tape : takes what is followed, for derivatives
     """
     prepared = prepare(model, start=start, backend=backend, settings=settings, clock=clock)
     return solve_prepared(
-        prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed, after_step=after_step
+        prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed, after_step=after_step, tape=tape
     )
 
 
@@ -85,6 +88,7 @@ def solve_prepared(
     raise_on_failure: bool = True,
     wellposed: bool = False,
     after_step: Callable[[History], None] | None = None,
+    tape: Tape | None = None,
 ) -> History:
     """Solve the load history of a prepared model; see :func:`solve`.
 
@@ -93,6 +97,7 @@ def solve_prepared(
     start : for which the model was prepared
     raise_on_failure, wellposed : as of :func:`signorini.api.solve`
     after_step : is given what is finished after every step but the last
+    tape : takes what is followed, for derivatives
     """
     refuse_fields(prepared.model)
     if wellposed and prepared.model.slides:
@@ -100,7 +105,7 @@ def solve_prepared(
     if start is not None and start.state.wear is not None and start.state.wear.taken.any():
         prepared = on_worn_mesh(prepared, start.state.wear.taken)
     begin = _first(prepared) if start is None else _fitting(prepared, start)
-    history = _follow(prepared, begin, wellposed, after_step)
+    history = _follow(prepared, begin, wellposed, after_step, tape)
     if prepared.model.fatigue and history.solved:
         history = with_fatigue(history)
     if raise_on_failure:
@@ -174,7 +179,11 @@ def _worn_alike(prepared: Prepared, state: State) -> State:
 
 
 def _follow(
-    prepared: Prepared, begin: Checkpoint, wellposed: bool, after_step: Callable[[History], None] | None
+    prepared: Prepared,
+    begin: Checkpoint,
+    wellposed: bool,
+    after_step: Callable[[History], None] | None,
+    tape: Tape | None,
 ) -> History:
     """Step after step, up to the end or to what stops it; then the last one goes as far as it was followed.
 
@@ -188,6 +197,8 @@ def _follow(
     steps: list[StepResult] = []
     constraints = _constraints(prepared, standing.released)
     end, loaded = begin, bool(state.forces.any())
+    if tape is not None:
+        tape.end = begin.state
     try:
         for stage in schedule:
             prepared, loading = prepared.ready(stage, end.loading)
@@ -199,7 +210,7 @@ def _follow(
                             now = staged(prepared, stage, loading)
                         else:
                             now = prepared.under(prepared.interface, loading, prepared.absent)
-                        followed, cycle_ends = _from(end, constraints, now, stage)
+                        followed, cycle_ends = _from(end, constraints, now, stage, tape is not None)
                     break
                 except SolveFailed:
                     if not prepared.limited:
@@ -209,6 +220,8 @@ def _follow(
                         prepared = prepared.widened()
             result = step_result(now, stage, followed, cycle_ends)
             after = Checkpoint.of(model, interface, followed.after, stage.standing, loading, prepared.candidates)
+            if tape is not None:
+                tape.take(followed.legs, followed.after, stage.name)
             # at once, whenever an interruption comes
             steps, end, constraints = [*steps, result], after, now.constraints
             if followed.prepared is not None:
@@ -232,12 +245,14 @@ def _follow(
     return replace(history, wellposedness=assess(now, end.state)) if wellposed else history
 
 
-def _from(end: Checkpoint, before: Constraints, now: Prepared, stage: Stage) -> tuple[FollowedPart, list[float]]:
+def _from(
+    end: Checkpoint, before: Constraints, now: Prepared, stage: Stage, taped: bool
+) -> tuple[FollowedPart, list[float]]:
     """A step from the end of the one before it and its supports, with the supports and contacts that it changes."""
     state = end.state if stage.released == end.standing.released else handed_over(now, before, end.state)
     if stage.inactive != end.standing.inactive:
         state = switched(now, state, pairs_of(now.model, now.interface, end.standing.inactive))
-    return _step(now, stage, state)
+    return _step(now, stage, state, taped)
 
 
 def _motion(stop: SolveFailed | KeyboardInterrupt) -> Array | None:
@@ -257,7 +272,7 @@ def _constraints(prepared: Prepared, released: frozenset[str]) -> Constraints:
     return make_constraints(prepared.space, prepared.model, without=released)
 
 
-def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart, list[float]]:
+def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[FollowedPart, list[float]]:
     """A step from what it changes at once through all its straight parts; and the load factors at its cycles' ends."""
     behind: list[FollowedPart] = []
     cycle_ends: list[float] = []
@@ -305,7 +320,7 @@ def _step(prepared: Prepared, stage: Stage, state: State) -> tuple[FollowedPart,
             followed = follow_sliding(part, way) if prepared.model.slides else way(part)
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, behind) from None
-        followed = lightened(followed, every=at_events, end=interval.asked, heated=heated)
+        followed = lightened(followed, every=at_events, end=interval.asked, heated=heated, taped=taped)
         behind = [joined([*behind, followed])]
         state = followed.after
         if interval.cycle:

@@ -6,13 +6,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
 from signorini.engine.prepare import Prepared
+from signorini.engine.tape import Leg
 from signorini.errors import Interrupted, SolveFailed
 from signorini.interface.interface import Interface
 from signorini.model.stage import Stage
@@ -214,6 +215,7 @@ class FollowedPart:
     turned_at : (dofs,) displacement at which loads were last seen from bodies that turn; empty where none does
     until : the same up to a fraction of it, where it is known without following it again
     prepared : the model at its end, where its mesh has moved with what is worn; None where it has not
+    legs : straight parts that derivatives know how to go through
     """
 
     path: str
@@ -228,9 +230,32 @@ class FollowedPart:
     turned_at: Array = field(default_factory=lambda: np.zeros(0))
     until: Callable[[float], FollowedPart] | None = None
     prepared: Prepared | None = None
+    legs: tuple[Leg, ...] = ()
 
 
-def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool) -> FollowedPart:
+def leg_of(part: StepPart, after: State, **way: Any) -> Leg:
+    """What derivatives need of a part that was followed.
+
+    Parameters
+    ----------
+    part : the part, up to where it was followed
+    after : the state there
+    way : how it was followed, see `Leg`
+    """
+    low, high = part.interval.factor(0.0), part.interval.factor(1.0)
+    return Leg(
+        prepared=part.prepared,
+        where=part.where,
+        before=part.before,
+        after=after,
+        end=part.end,
+        low=low,
+        high=high,
+        **way,
+    )
+
+
+def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool, taped: bool = False) -> FollowedPart:
     """What was followed, with the displacement of the bodies only where it was asked for, and at its end.
 
     Parameters
@@ -238,13 +263,14 @@ def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool) -
     every : asked for wherever it is known
     end : asked for at the end
     heated : displacements that were not asked for are needed for the work of temperatures
+    taped : its legs are wanted
     """
     shots = []
     for i, shot in enumerate(followed.snapshots, start=1):
         last = i == len(followed.snapshots)  # a cycle may end here, which is judged by its plastic strains
         kept = shot.whole and (every or shot.what == "asked" or (end and last))
         shots.append(replace(shot, kept=True) if kept else shot if heated else shot.light(last))
-    return replace(followed, snapshots=tuple(shots), until=None)
+    return replace(followed, snapshots=tuple(shots), until=None, legs=followed.legs if taped else ())
 
 
 def joined(behind: Sequence[FollowedPart]) -> FollowedPart:
@@ -264,6 +290,7 @@ def joined(behind: Sequence[FollowedPart]) -> FollowedPart:
         turned_at=behind[-1].turned_at,
         until=behind[0].until if len(behind) == 1 else None,
         prepared=next((part.prepared for part in reversed(behind) if part.prepared is not None), None),
+        legs=tuple(chain.from_iterable(followed.legs for followed in behind)),
     )
 
 

@@ -9,8 +9,9 @@ from typing import Literal
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.attempt import Spent
+from signorini.friction.history.rates import Rates
 from signorini.friction.history.state import PathState
 from signorini.outcome import Outcome
 
@@ -47,6 +48,8 @@ class Breakpoint:
     h, r : (d, n) as in `PathState`
     state : the whole state
     tried : increments tried to find where it ends, in space
+    rates : in the plane, of the piece that ends here
+    acting : (m,) in the plane, pairs whose event ends it; empty at the end of the segment unless one is there
     """
 
     factor: float
@@ -54,6 +57,8 @@ class Breakpoint:
     r: Array
     state: PathState | None = None
     tried: int = 0
+    rates: Rates | None = None
+    acting: IntArray | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -186,7 +186,9 @@ class PlaneFollower(PathFollower):
         if residual > self.settings.solver.tolerance and not len(lost):
             return NoRates(proof=f"the next state fails its certificate, residual {residual:.1e}", proved=False)
         self.now, self.factor = after, factor
-        self.pieces.append(Breakpoint(factor=factor, h=after.h, r=after.r, state=after))
+        self.pieces.append(
+            Breakpoint(factor=factor, h=after.h, r=after.r, state=after, rates=self.rates, acting=self.acting)
+        )
         if len(lost):
             self.acting = lost
             held = float(np.abs(after.r[1, lost]).max()) / (self.problem.scale or 1.0)

@@ -75,11 +75,7 @@ class Responses:
         SingularState
             Where the state has no unique response.
         """
-        if self._state is None or not np.array_equal(state, self._state):
-            self.pivots += 1
-            self._state = None
-            self.inverse.move_to(state)
-            self._state = state.copy()
+        self._move_to(state)
         n, unknowns = self.problem.pairs, self.inverse.unknowns
         x, seen = self.inverse.solve(free)
         full = np.zeros(len(free))
@@ -88,6 +84,35 @@ class Responses:
         r[1] += self.inverse.slope * r[0]
         seen[unknowns] = 0.0
         return seen[: 2 * n].reshape(2, n), r
+
+    def _move_to(self, state: IntArray) -> None:
+        """Make it the responses of another state."""
+        if self._state is None or not np.array_equal(state, self._state):
+            self.pivots += 1
+            self._state = None
+            self.inverse.move_to(state)
+            self._state = state.copy()
+
+    def respond_transposed(self, state: IntArray, h: Array, r: Array) -> Array:
+        """(2n + k,) The transpose of `respond`: what a functional of motions and forces is of the load.
+
+        Parameters
+        ----------
+        state : (n,)
+        h, r : (2, n) the functional
+
+        Raises
+        ------
+        SingularState
+            Where the state has no unique response.
+        """
+        self._move_to(state)
+        unknowns, rows = self.inverse.unknowns, self.inverse.rows
+        seen, pushed = np.zeros(rows), np.zeros(rows)
+        seen[: h.size] = h.ravel()
+        seen[unknowns] = 0.0
+        pushed[: r.size] = np.concatenate([r[0] + self.inverse.slope * r[1], r[1]])
+        return self.inverse.solve_transposed(pushed[unknowns], seen)
 
     def rates(self, state: IntArray, load: Array) -> Rates:
         """The rates of a state, (n,), under a load rate, (2n,), refined; raises SingularState."""

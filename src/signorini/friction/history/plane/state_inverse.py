@@ -69,6 +69,11 @@ class StateInverse:
         self.factorisations = self.updates = self._age = 0
 
     @property
+    def rows(self) -> int:
+        """Equations in all, 2n + k."""
+        return len(self._list)
+
+    @property
     def unknowns(self) -> IntArray:
         """(m,) Those of the present state."""
         return self._list[: self._count]
@@ -99,6 +104,17 @@ class StateInverse:
         m = self._count
         x = -(self._inverse[:m, :m] @ free[self.unknowns])
         return x, free + self._columns[:, :m] @ x
+
+    def solve_transposed(self, x: Array, seen: Array) -> Array:
+        """(2n + k,) The transpose of `solve`: what a functional of its results is of ``free``.
+
+        Parameters
+        ----------
+        x, seen : (m,) and (2n + k,) the functional, of the unknowns and of what all equations see
+        """
+        m, free = self._count, seen.copy()
+        free[self.unknowns] -= self._inverse[:m, :m].T @ (x + self._columns[:, :m].T @ seen)
+        return free
 
     def _invert(self, state: IntArray) -> None:
         self._state, self._age = None, 0

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the parameters of contacts and loads change at once: friction, gaps, and the size of what is imposed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.derivative.interface_system import InterfaceSystem
+from signorini.derivative.points import TapePoint
+from signorini.derivative.recursion import BoundTerm
+from signorini.engine.increments import moved_by_supports
+from signorini.law.bound import FrictionBound
+from signorini.law.friction import PairFriction
+
+_STEP = 1e-5  # of a parameter of the friction: differences of a bound with kinks are right to 1e-10 then
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FrictionChange:
+    """One parameter of the friction of a contact grows.
+
+    Attributes
+    ----------
+    parameter : "friction", "adhesion" or "shear_limit", or one of another law
+    contact : number of the contact
+    """
+
+    parameter: str
+    contact: int
+
+    def moved(self, point: TapePoint) -> None:  # noqa: ARG002
+        """Nothing moves at once."""
+        return
+
+    def bound(self, system: InterfaceSystem) -> BoundTerm:
+        """Slopes, starts and kinks per unit of the parameter."""
+        law, term = system.law, BoundTerm.of(system.law.pieces)
+        own = system.prepared.interface.contact[system.active] == self.contact
+        if law.pieces.branches == 1 and self.parameter == "friction":
+            term.slopes[0, own & np.isfinite(law.pieces.slopes[0]) & (law.law.section.axes.any(axis=0))] = 1.0
+            return term
+        given = system.prepared.interface.friction.parameters[self.parameter]
+        step = _STEP * float(np.nanmax(given[system.prepared.interface.contact == self.contact]))
+        high, low = (self._moved_bound(system, sign * step) for sign in (1.0, -1.0))
+        for name in ("slopes", "starts"):
+            setattr(term, name, (getattr(high, name) - getattr(low, name)) / (2.0 * step))
+        inside = np.isfinite(high.kinks[:-1]) & np.isfinite(low.kinks[:-1])
+        term.kinks[inside] = (high.kinks[:-1][inside] - low.kinks[:-1][inside]) / (2.0 * step)
+        return term
+
+    def _moved_bound(self, system: InterfaceSystem, step: float) -> FrictionBound:
+        """The bound of the active pairs with the parameter changed by a step."""
+        interface, active, blocks, first = system.prepared.interface, system.condensed.active, [], 0
+        own = interface.contact == self.contact
+        for law, parameters in interface.friction.blocks:
+            count = len(next(iter(parameters.values())))
+            here = own[first : first + count]
+            values = {
+                name: np.where(here, of + step, of) if name == self.parameter else of for name, of in parameters.items()
+            }
+            blocks.append((law, values))
+            first += count
+        posed = PairFriction(blocks=tuple(blocks)).among(active).posed(interface.area[active] / system.root)
+        return replace(system.law, **posed).pieces
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GapChange:
+    """Gaps grow, each by its own number.
+
+    Attributes
+    ----------
+    gap : (n,) of all pairs, length per unit
+    """
+
+    gap: Array
+
+    def moved(self, point: TapePoint) -> tuple[Array, Array]:
+        """Motions of the pairs, and no resultants."""
+        system = point.system
+        motion = np.zeros((system.directions, system.pairs))
+        motion[0] = self.gap[system.active]
+        return motion, np.zeros(system.motions)
+
+    def bound(self, system: InterfaceSystem) -> None:  # noqa: ARG002
+        """The friction stays."""
+        return
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LoadChange:
+    """A load, a temperature or a motion of supports is multiplied by 1 plus the parameter.
+
+    Attributes
+    ----------
+    name : of it
+    """
+
+    name: str
+
+    def moved(self, point: TapePoint) -> tuple[Array, Array]:
+        """Motions of the pairs and resultants, at the load factor of the point."""
+        factor = point.load.factors.get(self.name, 0.0)
+        motion, resultant = self._unit(point.system)
+        return factor * motion, factor * resultant
+
+    def bound(self, system: InterfaceSystem) -> None:  # noqa: ARG002
+        """The friction stays."""
+        return
+
+    @cached_property
+    def _known(self) -> dict[InterfaceSystem, tuple[Array, Array]]:
+        return {}
+
+    def _unit(self, system: InterfaceSystem) -> tuple[Array, Array]:
+        """Motions of the pairs and resultants of the load at factor 1, once for every system."""
+        if system not in self._known:
+            prepared, condensed = system.prepared, system.condensed
+            f, offset = imposed_by(system, self.name)
+            load = condensed.reduce(prepared.constraints.on_free(f)).load
+            moved = condensed.response.moved(load).reshape(offset.shape) + offset
+            self._known[system] = moved, condensed.response.resultant(load)
+        return self._known[system]
+
+
+def imposed_by(system: InterfaceSystem, name: str) -> tuple[Array, Array]:
+    """Nodal forces (dofs,) and motions of the active pairs (d, a) of a load or a moving support at factor 1."""
+    prepared = system.prepared
+    none = np.zeros((system.directions, system.pairs))
+    f = np.zeros(prepared.space.number_of_dofs)
+    if name in prepared.loads:
+        f += prepared.loads[name]
+    if name in prepared.constraints.prescribed:
+        u = prepared.constraints.prescribed[name]
+        return f - prepared.K @ u, moved_by_supports(prepared, u)[:, system.active]
+    return f, none

@@ -1,0 +1,338 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Derivatives of a history: of one output by everything that is given, and of everything by one parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.derivative.body_changes import BodyChange
+from signorini.derivative.changes import LoadChange, imposed_by
+from signorini.derivative.functionals import displacement_weights, value, weights
+from signorini.derivative.moduli import ModulusChange
+from signorini.derivative.outputs import Displacement, Output, Stress
+from signorini.derivative.parameters import change_of, names_of
+from signorini.derivative.points import tape_points
+from signorini.derivative.recursion import Adjoint, Change, PointChange, PointTerm, Weights, backward, forward
+from signorini.derivative.refusals import refuse_tape
+from signorini.derivative.validity import Validity, validity
+from signorini.derivative.view import HistoryView
+from signorini.engine.prepare import Prepared
+from signorini.engine.tape import Tape
+from signorini.errors import InputError
+
+
+class ByName(Mapping[str, Any]):
+    """Numbers by name, each found when it is asked for.
+
+    Parameters
+    ----------
+    names : what there is
+    find : the number of a name
+    """
+
+    def __init__(self, names: Sequence[str], find: Callable[[str], Any]) -> None:
+        self._names, self._find = list(names), find
+        self._found: dict[str, Any] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._found:
+            self._found[name] = self._find(name)
+        return self._found[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __repr__(self) -> str:
+        return repr(dict(self))
+
+
+class TapedHistory:
+    """A history with all that its derivatives go through.
+
+    Parameters
+    ----------
+    tape : of the history
+
+    Raises
+    ------
+    InputError
+        Where the history goes through what derivatives do not know, by name.
+    """
+
+    def __init__(self, tape: Tape) -> None:
+        refuse_tape(tape)
+        self.view = HistoryView.of(tape_points(tape))
+        self._forward: dict[tuple[str, str], tuple[Change, list[PointChange]]] = {}
+
+    @property
+    def prepared(self) -> Prepared:
+        """The model, as it is at the end."""
+        return self.view.points[-1].system.prepared
+
+    def forward(self, kind: str, name: str) -> list[PointChange]:
+        """What a parameter changes at every point, kept."""
+        if (kind, name) not in self._forward:
+            change = change_of(self.prepared, kind, name)
+            self._forward[kind, name] = change, forward(self.view.points, change)
+        return self._forward[kind, name][1]
+
+    def holds(self, kind: str, name: str) -> Validity:
+        """In which changes of a parameter the sequence of events stays."""
+        return validity(self.view, self.forward(kind, name))
+
+
+class Derivative:
+    """The derivative of an output of a history by everything that is given, from one way back through its events.
+
+    Every mapping is by name, and each of its numbers is found when it is asked for.
+
+    Parameters
+    ----------
+    history : the history
+    output : what is differentiated
+
+    Attributes
+    ----------
+    value : of the output
+    friction, adhesion, shear_limit : by contact, per unit of the coefficient or traction
+    interference : by contact, per length
+    gap : by contact, (n,) per length that the initial gap of each of its nodes grows by
+    load, support : by name, per factor that multiplies the load, or what the support prescribes, all along the history
+    E, nu, expansion : by body, per unit of it
+    """
+
+    def __init__(self, history: TapedHistory, output: Output) -> None:
+        self._history, self.output, view = history, output, history.view
+        self.value = value(output, view)
+        self._pull: Array | None = None
+        if isinstance(output, Displacement | Stress):
+            self._adjoint = self._of_bodies(output)
+        else:
+            self._adjoint = backward(view.points, weights(output, view))
+
+    def __repr__(self) -> str:
+        return f"Derivative of {self.output!r}: {self.value:.6g}"
+
+    @cached_property
+    def friction(self) -> ByName:
+        """By contact, per unit of the coefficient."""
+        return self._all("friction")
+
+    @cached_property
+    def adhesion(self) -> ByName:
+        """By contact, per unit of the traction without pressure."""
+        return self._all("adhesion")
+
+    @cached_property
+    def shear_limit(self) -> ByName:
+        """By contact, per unit of the largest traction."""
+        return self._all("shear_limit")
+
+    @cached_property
+    def interference(self) -> ByName:
+        """By contact, per length."""
+        return self._all("interference")
+
+    @cached_property
+    def gap(self) -> ByName:
+        """By contact, (n,) per length that the gap of each of its nodes grows by."""
+        return ByName(names_of(self._history.prepared, "gap"), self._gap)
+
+    @cached_property
+    def load(self) -> ByName:
+        """By load, per factor that multiplies it all along the history."""
+        return self._all("load")
+
+    @cached_property
+    def support(self) -> ByName:
+        """By moving support or obstacle, per factor that multiplies what it prescribes."""
+        return self._all("support")
+
+    @cached_property
+    def E(self) -> ByName:
+        """By body, per unit of Young's modulus."""
+        return self._all("E")
+
+    @cached_property
+    def nu(self) -> ByName:
+        """By body, per unit of Poisson's ratio."""
+        return self._all("nu")
+
+    @cached_property
+    def expansion(self) -> ByName:
+        """By body, per unit of the thermal expansion."""
+        return self._all("expansion")
+
+    def by(self, parameter: str) -> float:
+        """The derivative by a parameter as ``kind.name``, "friction.contact" or "E.pad"."""
+        kind, name = split(parameter)
+        return float(self._all(kind)[name])
+
+    def holds(self, parameter: str) -> Validity:
+        """In which changes of a parameter, ``kind.name``, the sequence of events stays; to first order."""
+        return self._history.holds(*split(parameter))
+
+    def _all(self, kind: str) -> ByName:
+        return ByName(names_of(self._history.prepared, kind), lambda name: self._by(kind, name))
+
+    def _by(self, kind: str, name: str) -> float:
+        """The derivative by one parameter."""
+        change = change_of(self._history.prepared, kind, name, of_bodies=self._pull is not None)
+        return self._along(change)
+
+    def _along(self, change: Change) -> float:
+        """What a change changes of the output."""
+        points, adjoint = self._history.view.points, self._adjoint
+        found = 0.0
+        for system, friction in adjoint.bounds.items():
+            bound = change.bound(system)
+            found += 0.0 if bound is None else friction.along(bound)
+        if isinstance(change, BodyChange | ModulusChange):
+            found += change.total(points, adjoint)
+            return found + self._at_once(change)
+        for i, term in adjoint.terms.items():
+            moved = change.moved(points[i])
+            if moved is not None:
+                found += float(np.vdot(term.motion, moved[0]) + term.resultant @ moved[1])
+        if isinstance(change, LoadChange):
+            found += self._pulled_by(change.name)
+        return found
+
+    def _gap(self, contact: str) -> Array:
+        """(n,) The derivative by the gaps of a contact, node by node."""
+        view, found = self._history.view, np.zeros(len(self._history.view.interface))
+        for i, term in self._adjoint.terms.items():
+            found[view.points[i].system.active] += term.motion[0]
+        return found[view.pairs(contact)]
+
+    def _of_bodies(self, output: Displacement | Stress) -> Adjoint:
+        """The adjoint of an output of bodies: what pulls on their displacements, and what that asks of the pairs.
+
+        With ``u = K^-1 (f + B^T r) + Z a`` and a the travel of what is left of h, see `Condensed.displacement`.
+        """
+        view = self._history.view
+        i = view.number(output.load_factor)
+        system = view.points[i].system
+        prepared, condensed, none = system.prepared, system.condensed, np.zeros(system.motions)
+        pull = displacement_weights(output, view)
+        on_free = prepared.constraints.on_free(pull)
+        rows, flat = (system.directions, system.pairs), np.zeros(system.directions * system.pairs)
+        y = condensed.response.displacement(condensed.reduce(on_free), flat, lambda _: none)
+        rigid = (prepared.motions @ prepared.floating)[prepared.constraints.leaders]
+        v = condensed.travel_transposed(rigid.T @ on_free) if system.motions else flat
+        back = condensed.response.displacement(condensed.reduce(np.zeros_like(on_free)), v, lambda _: none)
+        of_h, of_r = (np.zeros((system.directions, len(view.interface))) for _ in range(2))
+        of_h[:, system.active] = v.reshape(rows)
+        seen = prepared.interface.motion(prepared.constraints.transform @ (y - back))[:, system.active]
+        of_r[:, system.active] = seen - condensed.compliance * v.reshape(rows)
+        adjoint = backward(view.points, {i: Weights(h=of_h, r=of_r)})
+        term = adjoint.terms.get(i, PointTerm(motion=np.zeros(rows), resultant=none))
+        terms = adjoint.terms | {i: replace(term, motion=term.motion - v.reshape(rows))}
+        self._pull = pull
+        return replace(adjoint, terms=terms, pulled={i: y})
+
+    def _pulled_by(self, name: str) -> float:
+        """What a load or a moving support changes of an output of bodies while the pairs stay as they are."""
+        found = 0.0
+        for i, y in self._adjoint.pulled.items():
+            point = self._history.view.points[i]
+            constraints, factor = point.system.prepared.constraints, point.load.factors.get(name, 0.0)
+            found += factor * float(y @ constraints.on_free(imposed_by(point.system, name)[0]))
+            if name in constraints.prescribed and self._pull is not None:
+                found += factor * float(self._pull @ constraints.prescribed[name])
+        return found
+
+    def _at_once(self, change: BodyChange | ModulusChange) -> float:
+        """What a change of the bodies changes of the output while motions, forces and displacements stay."""
+        low, high = change.views(self._history.view)
+        if low is high:
+            return 0.0
+        return (value(self.output, high) - value(self.output, low)) / (2.0 * change.step)
+
+
+def split(parameter: str) -> tuple[str, str]:
+    """Kind and name of a parameter.
+
+    >>> split("friction.foundation")
+    ('friction', 'foundation')
+    """
+    kind, dot, name = parameter.partition(".")
+    if not dot:
+        raise InputError(f"is '{parameter}'; expected kind.name, 'friction.contact' or 'E.body'", where=("parameter",))
+    return kind, name
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ContactTangent:
+    """What a parameter changes of a contact, per unit of it.
+
+    Attributes
+    ----------
+    name : of the contact
+    node : (n,) node indices, from 0, as of the contact's result
+    pressure, gap : (n,)
+    traction, motion : (n,) along the tangent, in space (n, 2); of friction, and of the nodes since the beginning
+    """
+
+    name: str
+    node: IntArray
+    pressure: Array
+    gap: Array
+    traction: Array
+    motion: Array
+
+
+class HistoryTangent:
+    """What one parameter changes of every answer.
+
+    Parameters
+    ----------
+    history : the history
+    changes : what the parameter changes at every point
+    load_factor : where it is asked for; None at the end
+    """
+
+    def __init__(self, history: TapedHistory, changes: Sequence[PointChange], load_factor: float | None) -> None:
+        self._history, self._changes = history, changes
+        self._number = history.view.number(load_factor)
+
+    def contact(self, name: str) -> ContactTangent:
+        """What it changes of a contact, by name."""
+        view, change = self._history.view, self._changes[self._number]
+        own = view.pairs(name)
+        area = view.interface.area[own]
+        traction, motion = (change.r[1:, own] / area).T, change.h[1:, own].T
+        plane = view.interface.directions == 2
+        return ContactTangent(
+            name=name,
+            node=view.interface.node[own],
+            pressure=change.r[0, own] / area,
+            gap=change.h[0, own],
+            traction=traction[:, 0] if plane else traction,
+            motion=motion[:, 0] if plane else motion,
+        )
+
+    def of(self, output: Output) -> float:
+        """What it changes of an output of contacts.
+
+        Raises
+        ------
+        InputError
+            For outputs of bodies: ask for the derivative of those.
+        """
+        if isinstance(output, Displacement | Stress):
+            raise InputError(f"{output!r} is an output of bodies; ask for its derivative")
+        found = 0.0
+        for i, weight in weights(output, self._history.view).items():
+            change = self._changes[i]
+            found += float(np.vdot(weight.h, change.h) + np.vdot(weight.r, change.r))
+        return found

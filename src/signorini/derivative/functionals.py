@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Outputs as functionals of motions and forces: what they are, and how they change with both."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.derivative.outputs import (
+    COMPONENTS,
+    AtNode,
+    Displacement,
+    Dissipation,
+    HalfWidth,
+    Mean,
+    Moment,
+    Output,
+    Peak,
+    Resultant,
+    Stress,
+)
+from signorini.derivative.recursion import Weights
+from signorini.derivative.view import HistoryView
+from signorini.errors import InputError, one_of
+from signorini.fem.probe import StressProbe
+from signorini.fem.stress import DeformedBodies
+
+_HERTZ_LINE, _HERTZ_POINT = 4.0, 2.5  # half-width squared over the second moment of the pressure of Hertz
+
+
+def value(output: Output, view: HistoryView) -> float:
+    """What an output is."""
+    i = view.number(output.load_factor)
+    if isinstance(output, Displacement | Stress):
+        return _of_bodies(output, view, view.displacement(i), i)
+    if isinstance(output, Dissipation):
+        return _dissipation(output, view, i)[0]
+    return _of_pairs(output, view, i)[0]
+
+
+def weights(output: Output, view: HistoryView) -> dict[int, Weights]:
+    """How an output of contacts changes with motions and forces of the pairs, by number of the point."""
+    i = view.number(output.load_factor)
+    if isinstance(output, Dissipation):
+        return _dissipation(output, view, i)[1]
+    _, h, r = _of_pairs(output, view, i)
+    return {i: Weights(h=h, r=r)}
+
+
+def displacement_weights(output: Displacement | Stress, view: HistoryView) -> Array:
+    """(dofs,) How an output of bodies changes with displacements."""
+    i = view.number(output.load_factor)
+    u = view.displacement(i)
+    found, d = np.zeros(len(u)), view.model.dimension
+    if isinstance(output, Displacement):
+        found[d * output.node : d * output.node + d] = _along(output.along, d)
+        return found
+    space = view.space
+    around = np.unique(np.concatenate([cells[(cells == output.node).any(axis=1)].ravel() for cells in _cells(view)]))
+    still = np.zeros(space.number_of_dofs)
+    none = _stress(output, view, still, i)
+    for dof in (d * around[:, None] + np.arange(d)).ravel():
+        moved = still.copy()
+        moved[dof] = 1.0
+        found[dof] = _stress(output, view, moved, i) - none
+    return found
+
+
+def _cells(view: HistoryView) -> list[IntArray]:
+    return [block.cells for block in view.space.blocks]
+
+
+def _of_bodies(output: Displacement | Stress, view: HistoryView, u: Array, i: int) -> float:
+    """An output of bodies under displacements (dofs,) at a point."""
+    if isinstance(output, Stress):
+        return _stress(output, view, u, i)
+    return float(view.space.at_nodes(u)[_node(output.node, view)] @ _along(output.along, view.model.dimension))
+
+
+def _stress(output: Stress, view: HistoryView, u: Array, i: int) -> float:
+    names = [body.name for body in view.model.bodies]
+    if output.body not in names:
+        raise InputError(one_of(output.body, names, "body"))
+    body, space = names.index(output.body), view.space
+    probe = StressProbe.at_nodes(space, view.model, np.array([[body, _node(output.node, view)]]))
+    deformed = DeformedBodies.of(space, view.model, space.at_nodes(u), view.points[i].load.factors)
+    return float(probe.stress(deformed)[0][0, COMPONENTS.index(output.component)])
+
+
+def _node(node: int, view: HistoryView) -> int:
+    count = len(view.model.mesh.points)
+    if not 0 <= node < count:
+        raise InputError(f"is {node}; expected a node from 0 to {count - 1}", where=("node",))
+    return node
+
+
+def _along(given: tuple[float, ...], dimension: int) -> Array:
+    if len(given) != dimension:
+        raise InputError(f"has {len(given)} components; expected {dimension}", where=("along",))
+    return np.array(given)
+
+
+def _of_pairs(output: Output, view: HistoryView, i: int) -> tuple[float, Array, Array]:
+    """An output of contacts at a point, and how it changes with motions and forces (d, n) of all pairs there."""
+    interface, r, h = view.interface, view.forces(i), view.motions(i)
+    of_h, of_r = np.zeros_like(h), np.zeros_like(r)
+    own = view.pairs(getattr(output, "contact", ""))
+    if isinstance(output, Peak):
+        k = np.flatnonzero(own)[int(np.argmax((r[0] / interface.area)[own]))]
+        of_r[0, k] = 1.0 / interface.area[k]
+    elif isinstance(output, AtNode):
+        k = _pair(output, view, own, i)
+        if output.field in ("pressure", "traction"):
+            row = 0 if output.field == "pressure" else 1 + output.axis
+            of_r[row, k] = 1.0 / interface.area[k]
+        else:
+            of_h[0 if output.field == "gap" else 1 + output.axis, k] = 1.0
+    elif isinstance(output, Mean):
+        weighted = np.array(output.weights) if output.weights else np.ones(int(own.sum()))
+        if len(weighted) != own.sum():
+            raise InputError(f"has {len(weighted)} weights; expected {own.sum()}", where=("weights",))
+        of_r[0, own] = weighted / float(weighted @ interface.area[own])
+    elif isinstance(output, Resultant):
+        of_r[:, own] = _directions(view, _along(output.along, interface.directions), output.of)[:, own]
+    elif isinstance(output, Moment):
+        of_r[:, own] = _levers(output, view)[:, own]
+    elif isinstance(output, HalfWidth):
+        return _half_width(output, view, r, of_h)
+    return float(np.vdot(of_h, h) + np.vdot(of_r, r)), of_h, of_r
+
+
+def _pair(output: AtNode, view: HistoryView, own: BoolArray, i: int) -> int:
+    """Number of the pair of a node."""
+    found = np.flatnonzero(own & (view.interface.node == output.node))
+    if not len(found):
+        raise InputError(f"contact '{output.contact}' has no node {output.node}", where=("node",))
+    if output.axis not in range(view.interface.directions - 1):
+        raise InputError(f"is {output.axis}; expected the number of a tangent", where=("axis",))
+    k = int(found[0])
+    if k not in view.points[i].system.active and output.field in ("gap", "motion"):
+        raise InputError(f"node {output.node} is too far from the other side to be looked at", where=("node",))
+    return k
+
+
+def _directions(view: HistoryView, along: Array, of: str) -> Array:
+    """(d, n) Of unit forces of the pairs, their parts along a direction (d,)."""
+    interface = view.interface
+    rows = np.concatenate([(interface.normals @ along)[None], (interface.tangents @ along).T])
+    if of == "pressure":
+        rows[1:] = 0.0
+    if of == "friction":
+        rows[0] = 0.0
+    return np.asarray(rows)
+
+
+def _levers(output: Moment, view: HistoryView) -> Array:
+    """(d, n) Moments of unit forces of the pairs about a point."""
+    interface = view.interface
+    d, n = interface.directions, len(interface)
+    about, axis = _along(output.about, d), 0 if d == 2 else output.axis
+    found = interface.moments.reshape(d, n, -1)[:, :, axis].copy()
+    arms = np.array([[about[1], -about[0]]]) if d == 2 else np.cross(about, np.eye(3))
+    arm = arms[axis] if d == 3 else arms[0]
+    # the moment about x_0 is that about the origin less x_0 x f, which is linear in f as well
+    whole = found + _directions(view, arm, "all")
+    if output.of == "pressure":
+        whole[1:] = 0.0
+    if output.of == "friction":
+        whole[0] = 0.0
+    return np.asarray(whole)
+
+
+def _half_width(output: HalfWidth, view: HistoryView, r: Array, none: Array) -> tuple[float, Array, Array]:
+    own, interface = view.pairs(output.contact), view.interface
+    if view.model.dimension == 3:
+        raise InputError("half-widths are of contacts in the plane or axisymmetric")
+    places, of_r = view.model.mesh.points[interface.node[own]], np.zeros_like(r)
+    force = r[0, own]
+    total = float(force.sum())
+    if total <= 0.0:
+        raise InputError(f"contact '{output.contact}' does not press; it has no half-width")
+    if view.model.axisymmetric:
+        s, factor = places[:, 0], _HERTZ_POINT
+    else:
+        tangent = interface.tangents[own, 0].mean(axis=0)
+        s, factor = places @ (tangent / np.linalg.norm(tangent)), _HERTZ_LINE
+        s = s - (float(force @ s) / total if not output.about else _along(output.about, 2) @ tangent)
+    second = float(force @ s**2) / total
+    width = float(np.sqrt(factor * second))
+    of_r[0, own] = 0.5 * factor * (s**2 - second) / (total * width)
+    return width, none, of_r
+
+
+def _dissipation(output: Dissipation, view: HistoryView, last: int) -> tuple[float, dict[int, Weights]]:
+    """What friction has taken: trapezoids between the ends of pieces, increments with the forces at their ends."""
+    own, total = view.pairs(output.contact), 0.0
+    h, r = np.zeros_like(view.motions(0)), np.zeros_like(view.motions(0))
+    found = {i: Weights(h=np.zeros_like(h), r=np.zeros_like(h)) for i in range(last + 1)}
+    for i in range(last + 1):
+        before, pushed, (h, r) = h, r, (view.motions(i), view.forces(i))
+        seen = own & _active(view, i) & (_active(view, i - 1) if i else True)
+        moved = np.where(seen, h - before, 0.0)
+        moved[0] = 0.0
+        mean = np.where(seen, r if view.points[i].increment else 0.5 * (r + pushed), 0.0)
+        mean[0] = 0.0
+        total -= float(np.vdot(mean, moved))
+        found[i].h -= mean
+        found[i].r -= moved if view.points[i].increment else 0.5 * moved
+        if i:
+            found[i - 1].h += mean
+            found[i - 1].r -= 0.0 if view.points[i].increment else 0.5 * moved
+    return total, found
+
+
+def _active(view: HistoryView, i: int) -> BoolArray:
+    """(n,) Pairs that the law is asked of at a point."""
+    return view.points[i].system.condensed.active

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The condensed interface to first order, in states of its pairs: how motions and forces answer, and the transpose.
+
+While pairs keep their states, motions h and forces r are linear in what drives them (see `friction.linear`)::
+
+    h = A r + c + R a,    R'r + q = 0,    h_t = m where a pair sticks,    r_t = s F(p) where it slips
+
+with c the motion of the loads, q their resultants, m the memory of the pair: its tangential displacement at the end of
+the piece before. Nothing else is remembered. In space a pair that slips may turn, ``tau . (h - m) = -kappa r_tau``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import lapack
+
+from signorini.arrays import Array, IntArray
+from signorini.engine.prepare import Prepared
+from signorini.friction.history.plane.responses import Responses
+from signorini.friction.history.plane.state_inverse import SingularState
+from signorini.friction.linear import Equilibrium, LinearSystem, Unknowns, linear_system
+from signorini.law.bound import SIGN
+from signorini.law.pair import Tangent
+from signorini.law.states import SLIP_PLUS, STICK
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PairStates:
+    """The states of all pairs in one piece, as far as its tangent needs them.
+
+    Attributes
+    ----------
+    held : (d - 1, n) tangential motions that are what is remembered of them
+    unit : (d - 1, n) friction per size of its bound, of pairs that slip; 0 of others
+    branch : (n,) of the bound that they slip on
+    codes : (n,) in the plane, with the branch
+    tangent : in space, the law to first order
+    """
+
+    held: Array
+    unit: Array
+    branch: IntArray
+    codes: IntArray | None = None
+    tangent: Tangent | None = None
+
+
+class InterfaceSystem:
+    """The condensed interface of a prepared model to first order; motions and forces are scaled inside, (d, a).
+
+    Parameters
+    ----------
+    prepared : condensed
+    """
+
+    def __init__(self, prepared: Prepared) -> None:
+        paths = prepared.paths
+        self.prepared, self.condensed, self.law = prepared, paths.condensed, paths.law
+        self.active = np.flatnonzero(self.condensed.active)
+        self.root: Array = self.condensed.root
+        self.directions, self.pairs = prepared.interface.directions, len(self.active)
+        self.motions = self.law.image.R.shape[1]
+        self._responses = Responses(self.law) if self.law.piecewise_linear else None
+        self._tangent: tuple[Tangent, LinearSystem] | None = None
+
+    def states_of_codes(self, codes: IntArray) -> PairStates:
+        """The states of codes (n,) with branches, in the plane."""
+        slips = codes > STICK
+        return PairStates(
+            held=(codes == STICK)[None],
+            unit=(SIGN[codes] * slips)[None],
+            branch=np.where(slips, (codes - SLIP_PLUS) // 2, 0),
+            codes=codes,
+        )
+
+    def states_of_increment(self, codes: IntArray, h: Array, r: Array) -> PairStates:
+        """The states at the end of an increment.
+
+        Parameters
+        ----------
+        codes : (n,) without branches
+        h, r : (d, n) gaps and slips in the increment, forces
+        """
+        if self._responses is not None:
+            return self.states_of_codes(self.law.pieces.coded(codes, r[0]))
+        law = self.law.law
+        tangent = law.tangent(r - h)
+        size = law.bound.at(np.maximum(r[0], 0.0))
+        slips = tangent.closed & (tangent.left < self.directions - 1) & (size > 0.0)
+        unit = np.divide(r[1:], size, out=np.zeros_like(r[1:]), where=slips)
+        held = np.broadcast_to(tangent.closed & (tangent.left == self.directions - 1), unit.shape)
+        return PairStates(held=held, unit=unit, branch=self.law.pieces.branch(r[0]), tangent=tangent)
+
+    def imposed(self, h: Array, r: Array) -> Array:
+        """(d n + k,) What motions and forces, (d, n), are worth that come on top of what the states allow."""
+        image, flat = self.law.image, r.ravel()
+        acting = np.flatnonzero(flat)
+        given = flat[acting]
+        return np.concatenate([given @ image.A[acting] - h.ravel(), given @ image.R[acting]])
+
+    def respond(self, states: PairStates, free: Array) -> tuple[Array, Array]:
+        """Motions and forces, (d, n), of what the equations see of a load, (d n + k,).
+
+        Raises
+        ------
+        SingularState
+            Where the states have no unique response.
+        """
+        if self._responses is not None and states.codes is not None:
+            return self._responses.respond(states.codes, free)
+        system, (A, R) = self._system(states), (self.law.image.A, self.law.image.R)
+        unknowns, rows = system.unknowns, len(A)
+        x = _back(system, -np.concatenate([unknowns.seen(free[:rows].reshape(self.directions, -1)), free[rows:]]), 0)
+        r = unknowns.forces(x[: unknowns.size])
+        h = A @ r.ravel() + free[:rows] + R @ x[unknowns.size :]
+        return unknowns.prescribed(h.reshape(r.shape)), r
+
+    def respond_transposed(self, states: PairStates, h: Array, r: Array) -> Array:
+        """(d n + k,) The transpose of `respond`: what a functional h, r (d, n) of its results is of the load.
+
+        Raises
+        ------
+        SingularState
+            Where the states have no unique response.
+        """
+        if self._responses is not None and states.codes is not None:
+            return self._responses.respond_transposed(states.codes, h, r)
+        system, (A, R) = self._system(states), (self.law.image.A, self.law.image.R)
+        unknowns, flat = system.unknowns, system.unknowns.prescribed(h).ravel()
+        pushed = _forces_transposed(unknowns, r + (A @ flat).reshape(r.shape))
+        x = _back(system, np.concatenate([pushed, R.T @ flat]), 1)
+        return np.concatenate([flat - unknowns.seen_by(x[: unknowns.size]).ravel(), -x[unknowns.size :]])
+
+    def _system(self, states: PairStates) -> LinearSystem:
+        """The factorised system of states in space; that of the last ones is kept."""
+        assert states.tangent is not None
+        if self._tangent is None or self._tangent[0] is not states.tangent:
+            self._tangent = states.tangent, linear_system(Equilibrium(problem=self.law), states.tangent)
+        if self._tangent[1].singular:
+            raise SingularState
+        return self._tangent[1]
+
+
+def _forces_transposed(unknowns: Unknowns, r: Array) -> Array:
+    """(size,) The transpose of `Unknowns.forces`, of a functional r (d, n) of forces."""
+    law, flat = unknowns.law, r.ravel()
+    x = flat[unknowns.rows]
+    pairs = unknowns.closed[unknowns.slips]
+    x[unknowns.slips] += (law.share[:, pairs] * r[1:, pairs]).sum(axis=0)
+    return np.concatenate([x, (unknowns.tau * r[1:, unknowns.one]).sum(axis=0)])
+
+
+def _back(system: LinearSystem, rhs: Array, transposed: int) -> Array:
+    """The solution of a factorised system, or of its transpose."""
+    if not len(rhs):
+        return rhs
+    return np.asarray(lapack.dgetrs(system.lu, system.pivots, rhs, trans=transposed)[0], dtype=np.float64)

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the modulus of a body changes at once where it is a block of its own of the condensed bodies.
+
+Its displacements under forces are as 1 / E then, so that neither its stiffness nor a substitution into it is needed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray
+from signorini.condense.response import ByNodes
+from signorini.derivative.changes import imposed_by
+from signorini.derivative.interface_system import InterfaceSystem
+from signorini.derivative.pair_change import PairChange
+from signorini.derivative.points import TapePoint
+from signorini.derivative.recursion import Adjoint, BoundTerm
+from signorini.derivative.view import HistoryView
+from signorini.engine.path_states import offsets
+from signorini.engine.prepare import Prepared
+from signorini.fem.supports import make_constraints
+from signorini.interface.interface import make_interface
+from signorini.model.model import Model
+
+_STEP = 1e-4  # of a modulus: normals of tilted sides are smooth in it, differences right to a part in 1e8
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Contacts:
+    """Contact displacements of some points, and what makes them, a column each.
+
+    Attributes
+    ----------
+    forces : (d a, p) of the pairs
+    from_forces : (m, p) displacements of the contact dofs by loads and forces that do not grow with the modulus
+    whole : (m, p) displacements of the contact dofs
+    imposed : (dofs, p) what supports impose
+    """
+
+    forces: Array
+    from_forces: Array
+    whole: Array
+    imposed: Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ModulusChange:
+    """Young's modulus of one body grows, which is a block of its own of the condensed bodies.
+
+    Attributes
+    ----------
+    prepared : the model
+    body : number of the body
+    """
+
+    prepared: Prepared
+    body: int
+
+    @staticmethod
+    def knows(prepared: Prepared, body: int) -> bool:
+        """Whether the body is a block of its own: condensed by nodes, and neither tied, linked nor on foundations."""
+        name = prepared.model.bodies[body].name
+        linked = prepared.model.couples or bool(prepared.interface.tied.any()) or bool(prepared.constraints.springs)
+        shared = any(name in part.bodies and len(part.bodies) > 1 for part in prepared.parts)
+        return isinstance(prepared.paths.condensed.response, ByNodes) and not linked and not shared
+
+    @cached_property
+    def modulus(self) -> float:
+        """Young's modulus, force per area."""
+        return self.prepared.model.bodies[self.body].material.smallest_modulus
+
+    @cached_property
+    def pairs(self) -> PairChange:
+        """What it changes of the pairs: normals of tilted sides lie nearer to the stiffer one."""
+        step, always = _STEP * self.modulus, make_constraints(self.prepared.space, self.prepared.model)
+        low, high = (with_material(self.prepared.model, self.body, E=self.modulus + part) for part in (-step, step))
+        return PairChange.between(
+            make_interface(self.prepared.space, low, always), make_interface(self.prepared.space, high, always), step
+        )
+
+    @property
+    def step(self) -> float:
+        """Half of what the modulus differs by between both sides."""
+        return self.pairs.step
+
+    def views(self, view: HistoryView) -> tuple[HistoryView, HistoryView]:
+        """What outputs are read from at both sides of the modulus; the same where no pair changes."""
+        if not self.pairs.any:
+            return view, view
+        return replace(view, interface=self.pairs.low), replace(view, interface=self.pairs.high)
+
+    def bound(self, system: InterfaceSystem) -> BoundTerm | None:
+        """What areas change of the friction."""
+        return self.pairs.bound(system) if self.pairs.any else None
+
+    def moved(self, point: TapePoint) -> tuple[Array, Array]:
+        """Motions of the pairs and resultants."""
+        system = point.system
+        response, seen = _response(system), self._contacts(system, [point])
+        motion, resultant = self._by_forces(system, seen), np.zeros(system.motions)
+        if self.pairs.any:
+            load = self._on_contact(system, seen.forces)
+            moved = response.B @ response.parts.solve(load) + self._by_pairs(system, seen)
+            motion, resultant = motion + moved, response.resultant(load[:, 0])
+        return motion.reshape(system.directions, -1), resultant
+
+    def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
+        """What it changes of an output through all points, its friction apart."""
+        found = 0.0
+        for system in dict.fromkeys(points[i].system for i in adjoint.terms):
+            own = [i for i in adjoint.terms if points[i].system is system]
+            motion = np.stack([adjoint.terms[i].motion.ravel() for i in own], axis=-1)
+            seen, response = self._contacts(system, [points[i] for i in own]), _response(system)
+            found += float(np.vdot(motion, self._by_forces(system, seen)))
+            if self.pairs.any:
+                resultant = np.stack([adjoint.terms[i].resultant for i in own], axis=-1)
+                w = response.parts.solve(response.B.T @ motion) + response.rigid @ resultant
+                found += float(np.vdot(w, self._on_contact(system, seen.forces)))
+                found += float(np.vdot(motion, self._by_pairs(system, seen)))
+        return found
+
+    def _by_forces(self, system: InterfaceSystem, seen: _Contacts) -> Array:
+        """(d a, p) Motions of the pairs: what yields to forces yields less."""
+        own = self._own(system)
+        return np.asarray(-(_response(system).B[:, own] @ seen.from_forces[own]) / self.modulus)
+
+    def _by_pairs(self, system: InterfaceSystem, seen: _Contacts) -> Array:
+        """(d a, p) Motions of the pairs at the displacements of the bodies, seen otherwise."""
+        T, pairs, dofs = self.prepared.constraints.transform, self.pairs, system.condensed.dofs
+        u = T[:, dofs] @ seen.whole + seen.imposed
+        shape = (system.directions, system.pairs)
+        moved = [pairs.motion(system, u[:, k], seen.forces[:, k].reshape(shape)).ravel() for k in range(u.shape[1])]
+        return np.stack(moved, axis=-1)
+
+    def _on_contact(self, system: InterfaceSystem, forces: Array) -> Array:
+        """(m, p) Loads on the contact dofs that forces (d a, p) of the pairs are otherwise."""
+        shape, constraints = (system.directions, system.pairs), self.prepared.constraints
+        rows = [
+            constraints.on_free(self.pairs.on_bodies(system, r.reshape(shape)))[system.condensed.dofs] for r in forces.T
+        ]
+        return np.stack(rows, axis=-1)
+
+    def _own(self, system: InterfaceSystem) -> BoolArray:
+        """(m,) Contact dofs of the body."""
+        model, cells = self.prepared.model, self.prepared.model.body_of_cells()
+        mine = [
+            block.cells[cells[block.first : block.first + len(block.cells)] == self.body].ravel()
+            for block in self.prepared.space.blocks
+        ]
+        inside = np.zeros(len(model.mesh.points) + 1, dtype=np.bool_)
+        inside[np.concatenate(mine)] = True
+        nodes = self.prepared.constraints.nodes[system.condensed.dofs]
+        return np.asarray(inside[np.minimum(nodes, len(inside) - 1)], dtype=np.bool_)
+
+    def _contacts(self, system: InterfaceSystem, points: Sequence[TapePoint]) -> _Contacts:
+        """Contact displacements of points of one system."""
+        condensed, prepared, response = system.condensed, system.prepared, _response(system)
+        heats = {load.label for load in prepared.model.loads if load.temperature is not None}
+        names = sorted({name for point in points for name in point.load.factors})
+        factors = np.array([[point.load.factors.get(name, 0.0) for point in points] for name in names])
+        forces = np.stack([(system.root * point.r).ravel() for point in points], axis=-1)
+        h = np.stack([(point.h / system.root).ravel() for point in points], axis=-1)
+        offset = np.stack([offsets(prepared, point.load)[:, system.active].ravel() for point in points], axis=-1)
+        imposed = np.zeros((prepared.space.number_of_dofs, len(points)))
+        loads = np.zeros((2, len(condensed.dofs), len(points)))
+        pushed = response.B.T @ forces
+        for name, factor in zip(names, factors, strict=True):
+            if name in prepared.constraints.prescribed:
+                imposed += np.outer(prepared.constraints.prescribed[name], factor)
+            whole = condensed.reduce(prepared.constraints.on_free(imposed_by(system, name)[0])).load
+            loads[0] += np.outer(whole, factor)
+            if name in prepared.loads and name not in heats:
+                fixed = condensed.reduce(prepared.constraints.on_free(prepared.loads[name])).load
+                loads[1] += np.outer(fixed, factor)
+        x, from_forces = response.parts.solve(loads[0] + pushed), response.parts.solve(loads[1] + pushed)
+        left = h - condensed.compliance.ravel()[:, None] * forces - offset - response.B @ x
+        whole = x + response.rigid @ condensed.travel(left) if system.motions else x
+        return _Contacts(forces=forces, from_forces=from_forces, whole=whole, imposed=imposed)
+
+
+def with_material(model: Model, body: int, **changed: float) -> Model:
+    """The model with a body of another material.
+
+    Parameters
+    ----------
+    body : its number
+    changed : fields of its material
+    """
+    bodies = list(model.bodies)
+    material: Any = bodies[body].material
+    bodies[body] = replace(bodies[body], material=replace(material, **changed))
+    return replace(model, bodies=tuple(bodies))
+
+
+def _response(system: InterfaceSystem) -> ByNodes:
+    response = system.condensed.response
+    assert isinstance(response, ByNodes)
+    return response

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a parameter changes of how pairs see the bodies: normals, gaps, areas."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array
+from signorini.derivative.interface_system import InterfaceSystem
+from signorini.derivative.recursion import BoundTerm
+from signorini.interface.interface import Interface
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PairChange:
+    """What a parameter changes of how pairs see the bodies.
+
+    Attributes
+    ----------
+    B, gap, compliance : derivatives of those of `Interface`
+    low, high, step : the pairs at both sides of the parameter, and half of what that differs by
+    """
+
+    B: sp.csr_array
+    gap: Array
+    compliance: Array
+    low: Interface
+    high: Interface
+    step: float
+
+    @classmethod
+    def between(cls, low: Interface, high: Interface, step: float) -> PairChange:
+        """The differences between both sides of a parameter.
+
+        Parameters
+        ----------
+        low, high, step : the pairs there, and half of what the parameter differs by
+        """
+        width = 2.0 * step
+        return cls(
+            B=sp.csr_array((high.B - low.B) / width),
+            gap=(high.gap - low.gap) / width,
+            compliance=(high.compliance - low.compliance) / width,
+            low=low,
+            high=high,
+            step=step,
+        )
+
+    @cached_property
+    def any(self) -> bool:
+        """Whether anything changes."""
+        return bool(self.B.data.any() or self.gap.any() or self.compliance.any())
+
+    def motion(self, system: InterfaceSystem, u: Array, r: Array) -> Array:
+        """(d, a) Motions ``B' u + C' r + g'`` of the active pairs.
+
+        Parameters
+        ----------
+        system : the interface
+        u, r : (dofs,) displacements, (d, a) forces
+        """
+        moved = (self.B @ u).reshape(system.directions, -1)[:, system.active]
+        moved[0] += self.gap[system.active]
+        return np.asarray(moved + self.compliance[:, system.active] * r)
+
+    def on_bodies(self, system: InterfaceSystem, r: Array) -> Array:
+        """(dofs,) Forces ``B'^T r`` of forces (d, a) of the active pairs."""
+        whole = np.zeros((system.directions, len(self.gap)))
+        whole[:, system.active] = r
+        return np.asarray(self.B.T @ whole.ravel())
+
+    def bound(self, system: InterfaceSystem) -> BoundTerm | None:
+        """What areas change of the friction of the active pairs; None where that does not ask for them."""
+        law, active = system.law, system.condensed.active
+        if law.pieces.branches == 1 and not law.pieces.starts.any():
+            return None
+        term = BoundTerm.of(law.pieces)
+        high, low = (
+            replace(law, **side.friction.among(active).posed(side.area[active] / system.root)).pieces
+            for side in (self.high, self.low)
+        )
+        inside = np.isfinite(high.kinks[:-1]) & np.isfinite(low.kinks[:-1])
+        for name in ("slopes", "starts"):
+            setattr(term, name, (getattr(high, name) - getattr(low, name)) / (2.0 * self.step))
+        term.kinks[inside] = (high.kinks[:-1][inside] - low.kinks[:-1][inside]) / (2.0 * self.step)
+        return term

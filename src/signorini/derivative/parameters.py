@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parameters of a model by kind and name, and the change of each."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.derivative.body_changes import BodyChange
+from signorini.derivative.changes import FrictionChange, GapChange, LoadChange
+from signorini.derivative.moduli import ModulusChange, with_material
+from signorini.derivative.recursion import Change
+from signorini.engine.prepare import Prepared
+from signorini.errors import InputError, one_of
+from signorini.law.friction import Coulomb
+from signorini.model.material import Elastic
+
+KINDS = ("friction", "adhesion", "shear_limit", "interference", "load", "support", "E", "nu", "expansion")
+"""Of parameters that are one number; gaps are given node by node."""
+
+_STEP = 1e-5  # of Poisson's ratio, and of a modulus: K is smooth in both, differences right to a part in 1e9
+_LAWS = ("friction", "adhesion", "shear_limit")
+
+
+def names_of(prepared: Prepared, kind: str) -> list[str]:
+    """Names that parameters of a kind go by.
+
+    Raises
+    ------
+    InputError
+        For another kind.
+    """
+    model = prepared.model
+    if kind not in KINDS and kind != "gap":
+        raise InputError(one_of(kind, [*KINDS, "gap"], "kind of parameter"))
+    if kind in ("interference", "gap", *_LAWS):
+        return [contact.label for contact in model.contacts if not contact.tied]
+    if kind == "load":
+        return list(prepared.loads)
+    if kind == "support":
+        return list(prepared.constraints.prescribed)
+    return [body.name for body in model.bodies if isinstance(body.material, Elastic)]
+
+
+def change_of(prepared: Prepared, kind: str, name: str, *, of_bodies: bool = False) -> Change:
+    """What a parameter changes at once.
+
+    Parameters
+    ----------
+    prepared : the model
+    kind, name : of the parameter
+    of_bodies : whether an output of the bodies asks for it, for which their displacements are needed
+
+    Raises
+    ------
+    InputError
+        For a parameter that there is not.
+    """
+    known = names_of(prepared, kind)
+    if name not in known:
+        raise InputError(one_of(name, known, f"{kind} of the model"))
+    model = prepared.model
+    if kind in _LAWS:
+        return _friction(prepared, kind, name)
+    if kind == "interference":
+        labels = [contact.label for contact in model.contacts]
+        return GapChange(gap=-1.0 * (prepared.interface.contact == labels.index(name)))
+    if kind in ("load", "support"):
+        return LoadChange(name=name)
+    body = [part.name for part in model.bodies].index(name)
+    if kind == "E" and not of_bodies and ModulusChange.knows(prepared, body):
+        return ModulusChange(prepared=prepared, body=body)
+    material = model.bodies[body].material
+    given = float(getattr(material, kind))
+    step = _STEP if kind == "nu" else _STEP * (abs(given) or 1.0)
+    low, high = (with_material(model, body, **{kind: given + part}) for part in (-step, step))
+    return BodyChange.of(low, high, step)
+
+
+def _friction(prepared: Prepared, kind: str, name: str) -> FrictionChange:
+    """A parameter of the friction of a contact.
+
+    Raises
+    ------
+    InputError
+        Where the contact has none that could change.
+    """
+    model = prepared.model
+    number = [contact.label for contact in model.contacts].index(name)
+    law = model.contacts[number].law
+    if any(name in step.friction for step in model.steps):
+        raise InputError(f"steps change the friction of contact '{name}'; its parameters are not one number")
+    if not isinstance(law, Coulomb) or isinstance(law.friction, tuple) or callable(law.friction):
+        raise InputError(f"the friction of contact '{name}' is not one number")
+    if kind == "shear_limit" and law.shear_limit is None:
+        raise InputError(f"contact '{name}' has no shear limit")
+    if kind == "adhesion" and not law.adhesion:
+        raise InputError(f"contact '{name}' has no adhesion")
+    if kind == "friction" and not np.isfinite(law.coefficient):
+        raise InputError(f"contact '{name}' sticks whatever its friction")
+    return FrictionChange(parameter=kind, contact=number)

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A history as the points at which its pieces end: everything that the derivatives of its answers go through.
+
+Between two points no pair changes its state. A point is an event of some pair, whose load moves with what is varied, or
+the end of a straight part of the loads or of an increment, whose load is given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.derivative.interface_system import InterfaceSystem, PairStates
+from signorini.engine.tape import Leg, Tape
+from signorini.errors import InputError
+from signorini.law.states import OPEN, STICK, UNDECIDED
+from signorini.solution.state import LoadPoint
+
+_STANDSTILL = 1e-13  # of a segment: a piece that is no longer
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PieceConditions:
+    """What must not be negative in a piece: numbers g of one pair each, linear in its motions and forces.
+
+    Attributes
+    ----------
+    pair : (m,) numbers of active pairs
+    gap, pressure, friction : (m,) how g changes with the gap, the normal and the tangential force
+    branch : (m,) of the bound that it asks of
+    start, slope, kink : (m,) how g changes with the start and the slope of that branch, and with where it begins
+    value, rate : (m,) of g at the end of the piece, and per unit of the part of the leg; 0 in increments
+    """
+
+    pair: IntArray
+    gap: Array
+    pressure: Array
+    friction: Array
+    branch: IntArray
+    start: Array
+    slope: Array
+    kink: Array
+    value: Array
+    rate: Array
+
+    def change(self, h: Array, r: Array) -> Array:
+        """(m,) What motions and forces, (d, n), change of g."""
+        return self.gap * h[0, self.pair] + self.pressure * r[0, self.pair] + self.friction * r[1, self.pair]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class TapePoint:
+    """The end of a piece; motions and forces are scaled, of the active pairs.
+
+    Attributes
+    ----------
+    leg : number of the straight part
+    system : the interface in it
+    load : everything that is imposed here
+    load_factor : of the history, k at the end of step k
+    part : of the leg that is behind, 0 .. 1
+    states : of the pairs in the piece
+    h, r : (d, n) motions and forces here
+    h_rate, r_rate : (d, n) per unit of the part of the leg; None where the load is given
+    acting : (m,) pairs whose event it is; empty where the load is given
+    increment : whether the piece is an increment, whose friction is that of its end
+    """
+
+    leg: int
+    system: InterfaceSystem
+    load: LoadPoint
+    load_factor: float
+    part: float
+    states: PairStates
+    h: Array
+    r: Array
+    h_rate: Array | None
+    r_rate: Array | None
+    acting: IntArray
+    increment: bool
+
+    @property
+    def at_event(self) -> bool:
+        """Whether the load here moves with what is varied."""
+        return self.h_rate is not None and len(self.acting) > 0
+
+    @cached_property
+    def conditions(self) -> PieceConditions:
+        """What holds in the piece, in the plane."""
+        return _conditions(self)
+
+    @cached_property
+    def event(self) -> int:
+        """Number of the condition that ends the piece."""
+        return self.candidates[0]
+
+    @cached_property
+    def candidates(self) -> list[int]:
+        """For every acting pair the condition that vanishes here, that of the event first."""
+        found, known = [], self.conditions
+        for pair in self.acting:
+            own = np.flatnonzero((known.pair == pair) & (known.rate < 0.0))
+            if len(own):
+                found.append(own[np.argmin(np.abs(known.value[own] / known.rate[own]))])
+        if not found:
+            raise InputError(f"the event at load factor {self.load_factor:.9g} has no pair that goes through it")
+        return [int(i) for i in sorted(found, key=lambda i: float(abs(known.value[i] / known.rate[i])))]
+
+
+def tape_points(tape: Tape) -> list[TapePoint]:
+    """The points of a history, in order."""
+    systems: dict[int, InterfaceSystem] = {}
+    points: list[TapePoint] = []
+    for number, leg in enumerate(tape.legs):
+        system = systems.setdefault(id(leg.prepared), InterfaceSystem(leg.prepared))
+        points += _on_path(number, leg, system) if leg.segment is not None else _in_increments(number, leg, system)
+    return points
+
+
+def _on_path(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:
+    """The points of a leg that was followed exactly; overlaps that press at its beginning are an increment."""
+    assert leg.segment is not None
+    assert leg.start is not None
+    start, point = leg.start, leg.before.point
+    nobody = np.zeros(0, dtype=np.int64)
+    if start.r.any() and not leg.before.forces.any():
+        states = system.states_of_codes(start.state)
+        yield TapePoint(
+            leg=number,
+            system=system,
+            load=point,
+            load_factor=leg.low,
+            part=0.0,
+            states=states,
+            h=start.h,
+            r=start.r,
+            h_rate=None,
+            r_rate=None,
+            acting=nobody,
+            increment=True,
+        )
+    # a leg whose end wakes a body that rests ends at an event, and is the part of the segment up to there
+    pieces, reach, whole = leg.segment.pieces, leg.segment.pieces[-1].factor, leg.segment.followed
+    before = 0.0
+    for piece in pieces[1:]:
+        assert piece.state is not None
+        assert piece.rates is not None
+        assert piece.acting is not None
+        if piece.factor - before >= _STANDSTILL:
+            part = piece.factor / reach
+            moves = piece.factor < 1.0 or not whole
+            yield TapePoint(
+                leg=number,
+                system=system,
+                load=point.towards(leg.end, part),
+                load_factor=leg.low + part * (leg.high - leg.low),
+                part=part,
+                states=system.states_of_codes(piece.state.state),
+                h=piece.h,
+                r=piece.r,
+                h_rate=reach * piece.rates.h,
+                r_rate=reach * piece.rates.r,
+                acting=piece.acting if moves else nobody,
+                increment=False,
+            )
+        before = piece.factor
+
+
+def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:
+    """The ends of the increments of a leg."""
+    active, root = system.active, system.root
+    for k, state in enumerate(leg.states, start=1):
+        part = k / len(leg.states)
+        h, r = root * state.motion[:, active], state.forces[:, active] / root
+        slipped = np.concatenate([h[:1], root * state.increment[:, active]])
+        yield TapePoint(
+            leg=number,
+            system=system,
+            load=state.point,
+            load_factor=leg.low + part * (leg.high - leg.low),
+            part=part,
+            states=system.states_of_increment(state.status[active], slipped, r),
+            h=h,
+            r=r,
+            h_rate=None,
+            r_rate=None,
+            acting=np.zeros(0, dtype=np.int64),
+            increment=True,
+        )
+
+
+def _conditions(point: TapePoint) -> PieceConditions:
+    """Gaps of open pairs, pressures of closed ones, friction to spare, and kinks of the bounds of those that slip."""
+    law, states, gap = point.system.law, point.states, point.h[0]
+    p, q = point.r
+    codes, bound = states.codes, law.pieces
+    assert codes is not None
+    n, zero, one = len(codes), np.zeros(len(codes)), np.ones(len(codes))
+    opened, stick = codes == OPEN, (codes == STICK) & (law.law.closed == UNDECIDED) & ~law.unbounded
+    slips = codes > STICK
+    rows: list[tuple[BoolArray, Array, Array, Array, int | IntArray, Array, Array, Array, Array]] = [
+        (opened, one, zero, zero, 0, zero, zero, zero, gap),
+        (~opened, zero, one, zero, 0, zero, zero, zero, p),
+    ]
+    for j in range(bound.branches):
+        has = stick & np.isfinite(bound.kinks[j])
+        spare = bound.starts[j] + bound.slopes[j] * p
+        rows += [(has, zero, bound.slopes[j], -s * one, j, one, p, zero, spare - s * q) for s in (1.0, -1.0)]
+    for j in range(1, bound.branches):
+        there, below = slips & (states.branch == j), slips & (states.branch == j - 1)
+        rows.append((there, zero, one, zero, j, zero, zero, -one, p - bound.kinks[j]))
+        ends = below & np.isfinite(bound.kinks[j])
+        rows.append((ends, zero, -one, zero, j, zero, zero, one, bound.kinks[j] - p))
+    pairs, parts = np.arange(n), []
+    for which, *columns in rows:
+        parts.append([pairs[which], *(np.broadcast_to(np.asarray(column), n)[which] for column in columns)])
+    pair, of_gap, of_p, of_q, branch, of_start, of_slope, of_kink, value = (
+        np.concatenate(column) for column in zip(*parts, strict=True)
+    )
+    rate = np.zeros(len(pair))
+    if point.h_rate is not None and point.r_rate is not None:
+        rate += of_gap * point.h_rate[0, pair] + of_p * point.r_rate[0, pair] + of_q * point.r_rate[1, pair]
+    return PieceConditions(
+        pair=pair,
+        gap=of_gap,
+        pressure=of_p,
+        friction=of_q,
+        branch=branch,
+        start=of_start,
+        slope=of_slope,
+        kink=of_kink,
+        value=value,
+        rate=rate,
+    )

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Derivatives along a history, forwards for one parameter or backwards for one output.
+
+At a point a change of what is given changes motions and forces at a fixed load by x', from the equations of the piece;
+where an event of the condition g ends it, its load by ``l' = -g' / (dg/dl)``, and so x by ``x' + (dx/dl) l'`` in all.
+What pairs remember of it is their tangential motion h_t, which those hold that stick in the next piece. Everything else
+that an event does comes by itself. Backwards the same in transposed steps: points that nothing asks of cost nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.derivative.interface_system import InterfaceSystem
+from signorini.derivative.points import TapePoint
+from signorini.law.bound import FrictionBound
+
+
+@dataclass(kw_only=True, eq=False)
+class BoundTerm:
+    """Numbers for the friction bound of the active pairs of one system, scaled, (branches, a) each.
+
+    What a parameter changes of them, or how an output changes with them.
+
+    Attributes
+    ----------
+    slopes, starts, kinks : of the branches, and of where they begin
+    """
+
+    slopes: Array
+    starts: Array
+    kinks: Array
+
+    @classmethod
+    def of(cls, bound: FrictionBound) -> BoundTerm:
+        """Zero, for a bound."""
+        return cls(**{name: np.zeros_like(bound.slopes) for name in ("slopes", "starts", "kinks")})
+
+    def along(self, change: BoundTerm) -> float:
+        """What a change of the bound changes of the output whose term this is."""
+        return sum(float(np.vdot(getattr(self, name), getattr(change, name))) for name in ("slopes", "starts", "kinks"))
+
+
+class Change(Protocol):
+    """What a parameter changes at once, per unit of it, where no pair moves."""
+
+    def moved(self, point: TapePoint) -> tuple[Array, Array] | None:
+        """Motions of the pairs (d, a), length, and resultants of loads (k,), force; None where there are none."""
+
+    def bound(self, system: InterfaceSystem) -> BoundTerm | None:
+        """What it changes of the friction of the active pairs, scaled; None where that stays."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PointChange:
+    """What a parameter changes at a point, per unit of it.
+
+    Attributes
+    ----------
+    h, r : (d, n) of motions and forces of all pairs, length and force, where the point is
+    part : of the part of the leg that is behind
+    conditions : (m,) of the conditions of the piece at its end, scaled; empty in space
+    """
+
+    h: Array
+    r: Array
+    part: float
+    conditions: Array
+
+
+@dataclass(kw_only=True, eq=False)
+class Weights:
+    """How a number changes with motions and forces of all pairs, (d, n), at a point."""
+
+    h: Array
+    r: Array
+
+    def any(self) -> bool:
+        """Whether it does."""
+        return bool(self.h.any() or self.r.any())
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PointTerm:
+    """How an output changes with what drives a point where no pair moves.
+
+    Attributes
+    ----------
+    motion : (d, a) per length, with motions of the active pairs
+    resultant : (k,) per force, with resultants of loads
+    """
+
+    motion: Array
+    resultant: Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Adjoint:
+    """An output by everything that drives the points.
+
+    Attributes
+    ----------
+    terms : by number of the point, those that matter alone
+    bounds : by system
+    pulled : (z,) by number of the point, of outputs of bodies: free displacements where what the output changes with
+        pulls on them
+    """
+
+    terms: dict[int, PointTerm]
+    bounds: dict[InterfaceSystem, BoundTerm]
+    pulled: dict[int, Array] = field(default_factory=dict)
+
+
+def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
+    """What a parameter changes at every point.
+
+    Parameters
+    ----------
+    points : of the history
+    change : what the parameter changes at once
+    """
+    found: list[PointChange] = []
+    bounds: dict[InterfaceSystem, BoundTerm | None] = {}
+    memory: Array | None = None
+    for point in points:
+        system, states = point.system, point.states
+        if system not in bounds:
+            bounds[system] = change.bound(system)
+        every = (system.directions, len(system.condensed.active))
+        memory = np.zeros((every[0] - 1, every[1])) if memory is None else memory
+        bound, (held, given) = bounds[system], np.zeros((2, system.directions, system.pairs))
+        remembered = states.held if states.codes is not None else True
+        held[1:] = np.where(remembered, system.root * memory[:, system.active], 0.0)
+        if bound is not None:
+            given[1:] = states.unit * _on_branches(bound, states.branch, np.maximum(point.r[0], 0.0))
+        load = system.imposed(held, given)
+        moved = change.moved(point)
+        if moved is not None:
+            load += system.condensed.free(*moved)
+        h, r = system.respond(states, load)
+        h, r, part, conditions = h + held, r + given, 0.0, np.zeros(0)
+        if states.codes is not None:
+            conditions = _of_conditions(point, h, r, bound)
+        if point.at_event:
+            part = -float(conditions[point.event] / point.conditions.rate[point.event])
+            h, r = h + part * _rate(point.h_rate), r + part * _rate(point.r_rate)
+            conditions = conditions + part * point.conditions.rate
+        whole = np.zeros((2, *every))
+        whole[0][:, system.active], whole[1][:, system.active] = h / system.root, r * system.root
+        memory = whole[0, 1:]
+        found.append(PointChange(h=whole[0], r=whole[1], part=part, conditions=conditions))
+    return found
+
+
+def backward(points: Sequence[TapePoint], weights: Mapping[int, Weights]) -> Adjoint:
+    """An output by everything that drives the points.
+
+    Parameters
+    ----------
+    points : of the history
+    weights : how the output changes with motions and forces, by number of the point
+    """
+    terms: dict[int, PointTerm] = {}
+    bounds: dict[InterfaceSystem, BoundTerm] = {}
+    memory: Array | None = None
+    for i in range(max(weights, default=-1), -1, -1):
+        point = points[i]
+        system, states = point.system, point.states
+        if memory is None:
+            memory = np.zeros((system.directions - 1, len(system.condensed.active)))
+        h, r = (np.zeros((system.directions, system.pairs)) for _ in range(2))
+        if i in weights:
+            h, r = weights[i].h[:, system.active] / system.root, weights[i].r[:, system.active] * system.root
+        h[1:] += memory[:, system.active] / system.root
+        memory = np.zeros_like(memory)
+        held = np.where(states.held, h[1:], 0.0)
+        h[1:] -= held
+        if h.any() or r.any():
+            known = bounds.setdefault(system, BoundTerm.of(system.law.pieces))
+            if point.at_event:
+                _through_event(point, h, r, known)
+            free = system.respond_transposed(states, h, r)
+            motion, resultant = system.condensed.free_transposed(free)
+            terms[i] = PointTerm(motion=motion, resultant=resultant)
+            rows, image = h.size, system.law.image
+            c = free[:rows]
+            pushed = r + (image.A @ c + image.R @ free[rows:]).reshape(r.shape)
+            _of_friction(point, (states.unit * pushed[1:]).sum(axis=0), known)
+            held += (h - c.reshape(h.shape))[1:]
+        memory[:, system.active] = system.root * held
+    return Adjoint(terms=terms, bounds=bounds)
+
+
+def _on_branches(bound: BoundTerm, branch: IntArray, p: Array) -> Array:
+    """(n,) What a change of the bound changes of it on its branches under normal forces p."""
+    pairs = np.arange(len(p))
+    return np.asarray(bound.starts[branch, pairs] + bound.slopes[branch, pairs] * p)
+
+
+def _of_friction(point: TapePoint, size: Array, term: BoundTerm) -> None:
+    """Add what a size of the friction bound (n,) of pairs that slip changes of an output."""
+    branch, pairs = point.states.branch, np.arange(len(size))
+    term.starts[branch, pairs] += size
+    term.slopes[branch, pairs] += size * np.maximum(point.r[0], 0.0)
+
+
+def _of_conditions(point: TapePoint, h: Array, r: Array, bound: BoundTerm | None) -> Array:
+    """(m,) What the conditions of a piece change at its load."""
+    known = point.conditions
+    found = known.change(h, r)
+    if bound is not None:
+        at = known.branch, known.pair
+        found += known.start * bound.starts[at] + known.slope * bound.slopes[at] + known.kink * bound.kinks[at]
+    return found
+
+
+def _through_event(point: TapePoint, h: Array, r: Array, term: BoundTerm) -> None:
+    """Turn how an output changes with what is at an event into how it changes with what is at its load, in place."""
+    known, i = point.conditions, point.event
+    pair, branch = known.pair[i], known.branch[i]
+    share = -float(np.vdot(h, _rate(point.h_rate)) + np.vdot(r, _rate(point.r_rate))) / known.rate[i]
+    h[0, pair] += share * known.gap[i]
+    r[0, pair] += share * known.pressure[i]
+    r[1, pair] += share * known.friction[i]
+    term.starts[branch, pair] += share * known.start[i]
+    term.slopes[branch, pair] += share * known.slope[i]
+    term.kinks[branch, pair] += share * known.kink[i]
+
+
+def _rate(rate: Array | None) -> Array:
+    """(d, n) A rate of an exact path."""
+    assert rate is not None
+    return rate

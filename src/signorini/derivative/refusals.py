@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Histories that derivatives do not go through, by name."""
+
+from __future__ import annotations
+
+from signorini.engine.tape import Tape
+from signorini.errors import InputError
+from signorini.model.model import Model
+
+_UNKNOWN = "derivatives do not know"
+
+
+def refuse_model(model: Model) -> None:
+    """Refuse what a model has that derivatives do not know.
+
+    Raises
+    ------
+    InputError
+        By name.
+    """
+    for words, there in (
+        ("bodies that yield", model.yields),
+        ("contacts that wear", model.wears),
+        ("contacts that slide far", model.slides),
+        ("contacts that close by a law", any(contact.closure is not None for contact in model.contacts)),
+        ("models without contacts", not model.contacts),
+    ):
+        if there:
+            raise InputError(f"{_UNKNOWN} {words}")
+
+
+def refuse_tape(tape: Tape) -> None:
+    """Refuse a history that was followed otherwise than exactly or in equal increments, or from an unknown beginning.
+
+    Raises
+    ------
+    InputError
+        By name.
+    """
+    if not tape.whole:
+        raise InputError("goes on from a history without a tape; solve that with 'tape=True', too", where=("start",))
+    if tape.lost:
+        raise InputError(
+            f"{tape.lost}: {_UNKNOWN} what happens there: a jump, bodies that move until they touch, supports or "
+            "contacts that change, or increments that end at events, where a number of increments is known"
+        )
+    if not tape.legs:
+        raise InputError("no part of the history was followed; there is nothing to differentiate")
+    refuse_model(tape.legs[0].prepared.model)
+    for leg in tape.legs:
+        prepared = leg.prepared
+        if prepared.solver.paths is None:
+            raise InputError(f"{leg.where}: contact was solved on the bodies as they are; {_UNKNOWN} that")
+        if prepared.resting.any():
+            raise InputError(f"{leg.where}: {_UNKNOWN} bodies that rest where they were left")
+        if leg.segment is not None and prepared.interface.directions == 3:
+            raise InputError(f"{leg.where}: {_UNKNOWN} exact paths in space; give the step a number of increments")

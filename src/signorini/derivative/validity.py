@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How far a parameter may change before another sequence of events takes the place of the one that was followed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray
+from signorini.derivative.points import TapePoint
+from signorini.derivative.recursion import PointChange
+from signorini.derivative.view import HistoryView
+from signorini.errors import InputError
+from signorini.law.bound import SIGN
+from signorini.law.states import STICK, UNDECIDED
+
+_ZERO = 1e-10  # of the data of the law: a condition that no parameter can be near to
+
+
+@dataclass(frozen=True, kw_only=True)
+class Validity:
+    """The changes of a parameter in which a derivative holds, to first order.
+
+    Attributes
+    ----------
+    low, high : change of the parameter at which the sequence of events becomes another; infinite where none does
+    ends : what happens at both, in words; empty where nothing does
+    """
+
+    low: float
+    high: float
+    ends: tuple[str, str]
+
+
+def validity(view: HistoryView, changes: Sequence[PointChange]) -> Validity:
+    """The interval of a parameter, from what it changes at every point.
+
+    Parameters
+    ----------
+    view : the history
+    changes : what the parameter changes at every point
+
+    Raises
+    ------
+    InputError
+        In space, where pairs have no few states that could change.
+    """
+    if view.interface.directions == 3:
+        raise InputError("intervals of parameters are known in the plane alone, where pairs have few states")
+    low, high, ends = -np.inf, np.inf, ["", ""]
+    for value, rate, words in _conditions(view, changes):
+        end = np.divide(-value, rate, out=np.full(len(value), np.nan), where=rate != 0.0)
+        above, below = np.where(end > 0.0, end, np.inf), np.where(end < 0.0, end, -np.inf)
+        if len(end) and above.min() < high:
+            high, ends[1] = float(above.min()), words(int(above.argmin()))
+        if len(end) and below.max() > low:
+            low, ends[0] = float(below.max()), words(int(below.argmax()))
+    return Validity(low=low, high=high, ends=(ends[0], ends[1]))
+
+
+def _conditions(
+    view: HistoryView, changes: Sequence[PointChange]
+) -> Iterator[tuple[Array, Array, Callable[[int], str]]]:
+    """What must stay positive: values, their changes per unit of the parameter, and what happens where one does not."""
+    last: TapePoint | None = None
+    none = np.zeros_like(changes[0].h)
+    before, part = (none, none), 0.0
+    for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
+        known, scale = point.conditions, point.system.law.scale or 1.0
+        happens = set(point.candidates) if point.at_event else set()
+        there = (known.value > _ZERO * scale) & ~np.isin(np.arange(len(known.value)), list(happens))
+        named = np.flatnonzero(there)
+        yield known.value[there], change.conditions[there], _words(view, point, known.pair[named], _what(point, named))
+        moved = view.motions(i)
+        codes, active = point.states.codes, point.system.active
+        assert codes is not None
+        slips = np.flatnonzero((codes > STICK) & (point.system.law.law.closed == UNDECIDED))
+        away, rate = (
+            -SIGN[codes[slips]] * (now - then)[1, active[slips]]
+            for now, then in ((moved, before[0]), (change.h, before[1]))
+        )
+        yield away, np.where(away > 0.0, rate, 0.0), _words(view, point, slips, ["sticks"] * len(slips))
+        if last is not None and last.leg == point.leg and last.at_event:
+            yield (
+                np.array([point.part - last.part]),
+                np.array([change.part - part]),
+                _words(
+                    view,
+                    point,
+                    point.acting[:1] if point.at_event else last.acting[:1],
+                    ["changes places with another"],
+                ),
+            )
+        last, before, part = point, (moved, change.h), change.part
+
+
+def _what(point: TapePoint, numbers: IntArray) -> list[str]:
+    """What happens where conditions vanish."""
+    known = point.conditions
+    kinds = np.where(
+        known.gap[numbers] != 0.0,
+        0,
+        np.where(known.friction[numbers] != 0.0, 1, np.where(known.kink[numbers] != 0.0, 2, 3)),
+    )
+    return [("closes", "slips", "comes to a kink of its friction", "opens")[kind] for kind in kinds]
+
+
+def _words(view: HistoryView, point: TapePoint, pairs: IntArray, what: Sequence[str]) -> Callable[[int], str]:
+    """Names the pair of a condition, what it does and where."""
+
+    def told(k: int) -> str:
+        pair = int(point.system.active[pairs[k]])
+        contact = view.model.contacts[view.interface.contact[pair]].label
+        node = view.model.mesh.labels[view.interface.node[pair]]
+        return f"node {node} of '{contact}' {what[k]} before load factor {point.load_factor:.6g}"
+
+    return told

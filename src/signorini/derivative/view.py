@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What outputs are read from: a history at its points, with its bodies or what a parameter makes of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray
+from signorini.derivative.points import TapePoint
+from signorini.engine.increments import applied, free_load
+from signorini.engine.path_states import offsets
+from signorini.errors import InputError, one_of
+from signorini.fem.space import Space
+from signorini.interface.interface import Interface
+from signorini.model.model import Model
+
+_SAME_LOAD = 1e-9  # of a step: load factors that are one
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class HistoryView:
+    """A history as outputs read it.
+
+    Attributes
+    ----------
+    points : of the history
+    model, space, interface : bodies and pairs; with what a parameter has changed of them, forces and motions do not
+    """
+
+    points: Sequence[TapePoint]
+    model: Model
+    space: Space
+    interface: Interface
+
+    @classmethod
+    def of(cls, points: Sequence[TapePoint]) -> HistoryView:
+        """A history as it was followed."""
+        prepared = points[-1].system.prepared
+        return cls(points=points, model=prepared.model, space=prepared.space, interface=prepared.interface)
+
+    def number(self, load_factor: float | None) -> int:
+        """Of the point at a load factor, the last one where None is given.
+
+        Raises
+        ------
+        InputError
+            If no straight part of the loads ends there.
+        """
+        if load_factor is None:
+            return len(self.points) - 1
+        ends = {point.load_factor: i for i, point in enumerate(self.points) if not point.at_event}
+        nearest = min(ends, key=lambda end: abs(end - load_factor))
+        if abs(nearest - load_factor) > _SAME_LOAD:
+            told = ", ".join(f"{end:g}" for end in sorted({round(end, 9) for end in ends}))
+            raise InputError(
+                f"is {load_factor:g}; expected one of {told}, or ask for it with 'at' of the step",
+                where=("load_factor",),
+            )
+        return ends[nearest]
+
+    def pairs(self, contact: str) -> BoolArray:
+        """(n,) The pairs of a contact; of all contacts where none is named.
+
+        Raises
+        ------
+        InputError
+            If there is no such contact.
+        """
+        labels = [part.label for part in self.model.contacts]
+        if not contact:
+            return np.ones(len(self.interface), dtype=np.bool_)
+        if contact not in labels:
+            raise InputError(one_of(contact, labels, "contact"))
+        if self.model.contacts[labels.index(contact)].tied:
+            raise InputError(f"contact '{contact}' is tied: its forces are no unknowns of the law")
+        return np.asarray(self.interface.contact == labels.index(contact), dtype=np.bool_)
+
+    def forces(self, i: int) -> Array:
+        """(d, n) Forces of all pairs at a point; 0 of those that the law is not asked of."""
+        return self._whole(i, self.points[i].r * self.points[i].system.root)
+
+    def motions(self, i: int) -> Array:
+        """(d, n) Gaps and tangential motions of all pairs at a point; 0 of those that the law is not asked of."""
+        return self._whole(i, self.points[i].h / self.points[i].system.root)
+
+    def displacement(self, i: int) -> Array:
+        """(dofs,) Displacements at a point."""
+        return displacements([self.points[i]])[:, 0]
+
+    def _whole(self, i: int, rows: Array) -> Array:
+        system = self.points[i].system
+        whole = np.zeros((system.directions, len(self.interface)))
+        whole[:, system.active] = rows
+        return whole
+
+
+def displacements(points: Sequence[TapePoint]) -> Array:
+    """(dofs, points) Displacements at points of one system."""
+    system = points[0].system
+    prepared, condensed = system.prepared, system.condensed
+    f = np.stack([free_load(prepared, point.load) for point in points], axis=-1)
+    imposed = np.stack([applied(prepared, point.load)[1] for point in points], axis=-1)
+    offset = np.stack([offsets(prepared, point.load)[:, system.active] for point in points], axis=-1)
+    h = np.stack([point.h / system.root for point in points], axis=-1)
+    r = np.stack([point.r * system.root for point in points], axis=-1)
+    free = condensed.displacement(condensed.reduce(f), h, r, offset)
+    return np.asarray(prepared.constraints.transform @ free + imposed)

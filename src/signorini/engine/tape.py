@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a history leaves for its derivatives where that is asked for: its straight parts as they were followed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from signorini.engine.prepare import Prepared
+from signorini.friction.history import PathState, Segment
+from signorini.solution.state import LoadPoint, State
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Leg:
+    """A straight part of a history as it was followed: exactly, or in increments.
+
+    Attributes
+    ----------
+    prepared : the model, as it was in this part
+    where : name of the step
+    before, after : states at the ends
+    end : the point of the load history at its end
+    low, high : load factors at the ends
+    start : state of the path at the beginning, in the scaled units of the law; None in increments
+    segment : the pieces of the path; None in increments
+    states : at the ends of increments; empty on a path
+    """
+
+    prepared: Prepared
+    where: str
+    before: State
+    after: State
+    end: LoadPoint
+    low: float
+    high: float
+    start: PathState | None = None
+    segment: Segment | None = None
+    states: tuple[State, ...] = ()
+
+
+@dataclass(kw_only=True, eq=False)
+class Tape:
+    """All legs of a history in order, with those of the history that it goes on from.
+
+    Attributes
+    ----------
+    legs : so far
+    whole : whether the history begins at rest, or goes on from one that has a tape
+    end : the state that the last leg leads to; None before the first
+    lost : the first step with something that was followed on no leg; empty where there is none
+    """
+
+    legs: list[Leg] = field(default_factory=list)
+    whole: bool = True
+    end: State | None = None
+    lost: str = ""
+
+    def take(self, legs: tuple[Leg, ...], after: State, where: str) -> None:
+        """Take what was followed up to a state.
+
+        Parameters
+        ----------
+        legs : straight parts, none where it was followed otherwise
+        after : state that they lead to
+        where : name of the step, for what is lost
+        """
+        for leg in legs:
+            self.lost = self.lost or (where if leg.before is not self.end else "")
+            self.end = leg.after
+        self.lost = self.lost or (where if after is not self.end else "")
+        self.legs.extend(legs)
+        self.end = after
