@@ -18,7 +18,14 @@ SETTINGS = ROOT / "website" / "zensical.toml"
 NAVIGATION: dict[str, list[str]] = {
     "Start": ["index.md", "start.md", "other_programs.md"],
     "How to": [
-        *("howto/gmsh.md", "howto/keyword_decks.md", "howto/arrays.md", "howto/paraview.md", "howto/sweeps.md"),
+        *(
+            "howto/gmsh.md",
+            "howto/keyword_decks.md",
+            "howto/arrays.md",
+            "howto/report.md",
+            "howto/paraview.md",
+            "howto/sweeps.md",
+        ),
         *("howto/restart.md", "howto/own_solver.md", "howto/batch.md"),
     ],
     "Decks": ["deck.md", "inp.md", "security.md"],

@@ -44,6 +44,7 @@ from signorini.plot.escape import plot_escape
 from signorini.plot.picture_data import PictureData
 from signorini.plot.style import literal
 from signorini.plot.view import write_view
+from signorini.report.page import write_report
 from signorini.settings import SolverSettings
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.fatigue_result import FatigueResult
@@ -257,6 +258,16 @@ class Solution(DifferentiableHistory):
             If PyVista is not installed, the model is plane, nothing was solved, or the name ends otherwise.
         """
         write_view(PictureData(self, self._fields), Path(path))
+
+    def report(self, path: str | Path) -> None:
+        """Write a report, one HTML file that needs nothing else: problem, results, certificate, curves, pictures.
+
+        Raises
+        ------
+        InputError
+            If the name does not end in ``.html``.
+        """
+        write_report(self, Path(path), self._fields)
 
     def plot_escape(self) -> Figure:
         """Draw the motion along which bodies run away, where no equilibrium was found because of it.

@@ -62,6 +62,10 @@ def make_parser() -> argparse.ArgumentParser:
     )
     plot.add_argument("-o", dest="file", metavar="FILE", help="PNG, PDF or SVG file (default: WHAT.png in DIR)")
 
+    report = commands.add_parser("report", parents=[shared], help="write the results in a folder as one HTML page")
+    report.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
+    report.add_argument("-o", dest="file", metavar="FILE", help="HTML file (default: report.html in DIR)")
+
     verify = commands.add_parser("verify", parents=[shared], help="compare with known answers")
     verify.add_argument("--all", action="store_true", help="the slow cases too")
     verify.add_argument("--json", metavar="FILE", help="write the table as JSON")

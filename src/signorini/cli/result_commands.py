@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``signorini plot`` and ``diff``: pictures from a result folder, and two results side by side."""
+"""``signorini plot``, ``report`` and ``diff``: pictures and a page of a result folder, two results side by side."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ from signorini.plot.solid import draw_solid_mesh, draw_solid_peeq, draw_solid_st
 from signorini.plot.style import literal
 from signorini.plot.view import write_view
 from signorini.plot.wear import draw_wear
+from signorini.report.page import write_report
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
@@ -69,6 +70,17 @@ def _draw(history: History, what: str) -> Figure:
     if what == "fatigue":
         return draw_fatigue(data)
     return draw_history(data) if what == "history" else draw_contacts(data)
+
+
+def report(options: argparse.Namespace) -> int:
+    """Write the page and say where it is."""
+    folder = Path(options.folder)
+    file = Path(options.file) if options.file else folder / "report.html"
+    if not file.parent.is_dir():
+        raise InputError(f"there is no folder '{file.parent}'", where=("-o",))
+    write_report(read_folder(folder), file)
+    print(file)
+    return 0
 
 
 def diff(options: argparse.Namespace) -> int:

@@ -36,7 +36,7 @@ def draw_history(data: PictureData) -> Figure:
     panels = figure.subplots(rows, 3, squeeze=False)
     ends = [] if data.solid else [data.curves(number) for number in range(1, len(steps) + 1)]
     for i, name in enumerate(names):
-        forces = _contact_forces(data.history, i)
+        forces = contact_forces(data.history, i)
         if data.solid:
             _largest_pressure(panels[i, 0], forces, name)
             _nodes(panels[i, 1], forces, name)
@@ -60,7 +60,7 @@ def draw_history(data: PictureData) -> Figure:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _ContactForces:
+class ContactForces:
     """A contact at the instants of a history, (m,) each, with its beginning where that is unloaded.
 
     Attributes
@@ -82,7 +82,7 @@ class _ContactForces:
     ends: IntArray
 
 
-def _contact_forces(history: History, i: int) -> _ContactForces:
+def contact_forces(history: History, i: int) -> ContactForces:
     """The contact i of the model."""
     instants = [instant for step in history.steps for instant in step.instants]
     contacts = [instant.contacts[i] for instant in instants]
@@ -94,7 +94,7 @@ def _contact_forces(history: History, i: int) -> _ContactForces:
     def course(values: Array, first: Array | float = 0.0) -> Array:
         return np.concatenate([np.full_like(values[:1], first), values]) if unloaded else values
 
-    return _ContactForces(
+    return ContactForces(
         load=course(load),
         normal=course(padded(np.array([contact.normal_force for contact in contacts]), 3)),
         friction=course(padded(np.array([contact.tangential_force for contact in contacts]), 3)),
@@ -105,13 +105,13 @@ def _contact_forces(history: History, i: int) -> _ContactForces:
     )
 
 
-def _largest_pressure(axes: Axes, forces: _ContactForces, name: str) -> None:
+def _largest_pressure(axes: Axes, forces: ContactForces, name: str) -> None:
     axes.plot(forces.load, forces.largest, "-", color=PRESSURE, lw=1.5)
     axes.plot(forces.load[forces.ends], forces.largest[forces.ends], "o", color=PRESSURE, ms=5)
     dress(axes, y=f"largest pressure of '{name}', force per area")
 
 
-def _nodes(axes: Axes, forces: _ContactForces, name: str) -> None:
+def _nodes(axes: Axes, forces: ContactForces, name: str) -> None:
     """Numbers of nodes that stick and slip, from every instant back to the one before."""
     _, stick, slip = forces.counts
     for low, high, status in ((0.0 * stick, stick, STICK), (stick, stick + slip, SLIP)):
@@ -134,9 +134,9 @@ def _profiles(axes: Axes, curves: list[Curve], what: str) -> None:
     dress(axes, x=curves[0].place, y=f"{words}, force per area")
 
 
-def _resultants(axes: Axes, forces: _ContactForces, solid: bool) -> None:
+def _resultants(axes: Axes, forces: ContactForces, solid: bool) -> None:
     """Normal force, friction force with its sign, and dissipation, at every instant."""
-    along, words = _direction(forces, solid)
+    along, words = friction_direction(forces, solid)
     for values, colour, mark, said in (
         (np.linalg.norm(forces.normal, axis=1), PRESSURE, "o", "normal force"),
         (forces.friction @ along, TRACTION, "s", f"friction force, {words}"),
@@ -159,7 +159,7 @@ def _resultants(axes: Axes, forces: _ContactForces, solid: bool) -> None:
     axes.legend(handles, labels, fontsize=8.5, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
 
 
-def _direction(forces: _ContactForces, solid: bool) -> tuple[Array, str]:
+def friction_direction(forces: ContactForces, solid: bool) -> tuple[Array, str]:
     """The direction along which friction is drawn, and its words: the mean tangent, or in space that of the largest."""
     if solid:
         size = np.linalg.norm(forces.friction, axis=1)

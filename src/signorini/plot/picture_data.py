@@ -16,6 +16,7 @@ from signorini.plot.curve import Curve, curve_of
 from signorini.plot.patch import Patch, patch_of
 from signorini.plot.skin import Skin, make_skin
 from signorini.plot.style import STATUS_INK, status_words
+from signorini.plot.units import Units, units_of
 from signorini.plot.walls import Wall, walls_of
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
@@ -57,6 +58,11 @@ class PictureData:
     def __init__(self, history: History, fields: Fields | None = None) -> None:
         self.history, self.model, self.last = history, history.model, history.last
         self._fields = fields or Fields(history.model)
+
+    @cached_property
+    def units(self) -> Units:
+        """Words for axes."""
+        return units_of(self.model.units)
 
     @property
     def solid(self) -> bool:

@@ -18,6 +18,7 @@ from signorini.report.markup import said
 from signorini.solution.results import ContactResult
 
 _FILLS = ("#7aa6d6", "#e0b071", "#86bd86", "#c791b6", "#a9a9a4")
+_MOST_HEIGHT = 0.9  # of a drawing, over its width
 _MOST_POINTS = 300  # of a loop: more cannot be told apart in a small drawing
 _MOST_EDGES = 1500  # of bodies in space: the longest ones
 
@@ -28,7 +29,7 @@ def sketch_model(model: Model, width: int = 260) -> str:
     points = np.concatenate([loop for _, loops in shapes for loop in loops])
     low, high = points.min(axis=0), points.max(axis=0)
     size = np.maximum(high - low, 1e-3 * np.ptp(points, axis=0).max())
-    scale = width / max(size[0], 0.6 * size[1])
+    scale = width / max(size[0], size[1] / _MOST_HEIGHT)
     drawn = []
     for (name, loops), colour in zip(shapes, cycle(_FILLS), strict=False):
         ways = "".join(_way((loop - low) * scale, size[1] * scale, closed=model.dimension == 2) for loop in loops)

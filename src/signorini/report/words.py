@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+from signorini.law.friction import FrictionLaw
+from signorini.model.contact import Contact
 from signorini.model.model import Model
+from signorini.model.rigid import Rigid
 from signorini.model.varying import spell
 from signorini.output.table import spell_number, spell_vector
 from signorini.solution.certificate import NUMBERS, TOLERANCE, Certificate
@@ -71,3 +74,56 @@ def load_rows(model: Model) -> list[tuple[str, str, str]]:
         )
         rows.append((load.label, load.kind.replace("_", " "), words))
     return rows
+
+
+def material_words(model: Model) -> list[tuple[str, str, str]]:
+    """Name, material and number of elements of every body."""
+    return [(body.name, str(body.material), str(len(model.mesh.bodies[body.name]))) for body in model.bodies]
+
+
+def support_words(model: Model) -> list[tuple[str, str]]:
+    """Name of every support, and what it prescribes."""
+    return [
+        (support.label, ", ".join("free" if part is None else spell(part) for part in support.u))
+        for support in model.supports
+    ]
+
+
+def contact_words(model: Model) -> list[tuple[str, str, str]]:
+    """Name, sides and friction of every contact."""
+    return [
+        (contact.label, f"{contact.nonmortar} on {contact.mortar}", _friction(contact)) for contact in model.contacts
+    ]
+
+
+def further_words(model: Model) -> list[tuple[str, str]]:
+    """Name of every moving obstacle, bolt, foundation, rigid body and equation, and what it is."""
+    driven = [(rigid.name, f"{rigid.shape}, {_driven(rigid)}") for rigid in model.obstacles]
+    bolts = [
+        (bolt.label, f"bolt, shortening {bolt.shortening:g}" if bolt.force is None else f"bolt, force {bolt.force:g}")
+        for bolt in model.bolts
+    ]
+    beds = [(bed.label, f"foundation, {bed.normal_stiffness:g} along its normal") for bed in model.foundations]
+    stiff = [(body.label, "rigid body") for body in model.rigid_bodies]
+    tied = [("equations", f"{len(model.equations)} between displacements")] if model.equations else []
+    rings = [("sectors", f"one of {ring.sectors}") for ring in model.cyclic_symmetries]
+    return [*driven, *bolts, *beds, *stiff, *tied, *rings]
+
+
+def _driven(rigid: Rigid) -> str:
+    parts = ", ".join("free" if part is None else f"{part:g}" for part in rigid.u)
+    bears = f", bears {spell_vector([part or 0.0 for part in rigid.force])}" if rigid.force else ""
+    return f"moves by ({parts}){bears}"
+
+
+def _friction(contact: Contact) -> str:
+    if contact.tied:
+        return "tied"
+    if isinstance(contact.friction, FrictionLaw):
+        return contact.friction.words
+    if isinstance(contact.friction, tuple):
+        words = f"{contact.friction[0]:g} along, {contact.friction[1]:g} across"
+    else:
+        words = contact.friction if isinstance(contact.friction, str) else spell(contact.friction)
+    limit = "" if contact.shear_limit is None else f", at most {contact.shear_limit:g}"
+    return words + limit + (f", adhesion {contact.adhesion:g}" if contact.adhesion else "")
