@@ -105,9 +105,10 @@ def _thing(name: str, thing: Any, level: int, places: dict[str, str]) -> str:
     if made and (signature := _signature(thing)):
         lines += ["```python", f"{shown}{signature}", "```", ""]
     lines += [prose(inspect.getdoc(thing) or "", places), ""]
-    if inspect.isclass(thing) and thing.__base__.__module__.startswith("signorini.solution"):
-        inherited = inspect.getdoc(thing.__base__) or ""
-        lines += [prose(inherited[inherited.index("Attributes\n") :], places), ""]
+    for base in thing.__mro__[1:] if inspect.isclass(thing) else ():
+        inherited = inspect.getdoc(base) or ""
+        if base.__module__.startswith("signorini.solution") and "Attributes\n---" in inherited:
+            lines += [prose(inherited[inherited.index("Attributes\n") :], places), ""]
     if inspect.isclass(thing):
         lines += [_method(short, member, value, level + 1, places) for member, value in _own(thing)]
     return "\n".join(lines)
