@@ -37,3 +37,25 @@ def rig(kind="plane strain", friction=0.35, steps=STEPS, **law):
         contacts=[sg.Contact("pad.bottom", "block.top", friction=friction, name="joint", **law)],
         steps=list(steps),
     )
+
+
+def ball_rig(friction=0.3, increments=2):
+    """A pad that is curved both ways, pressed on a softer block and pulled askew: pairs slip and turn."""
+    pad = sg.box(x=np.linspace(0, 1, 3), y=np.linspace(0, 1, 3), z=[1.0, 2.0])
+    x, y, z = pad.points.T
+    curved = np.column_stack([x, y, z + 0.03 * ((x - 0.45) ** 2 + (y - 0.52) ** 2) * (2.0 - z)])
+    block = sg.box(x=np.linspace(-0.1, 1.1, 4), y=np.linspace(-0.1, 1.1, 4), z=[0.0, 1.0])
+    return sg.Model(
+        sg.join({"pad": replace(pad, points=curved), "block": block}),
+        bodies=[sg.Body("pad", sg.Elastic(E=2000.0, nu=0.3)), sg.Body("block", sg.Elastic(E=900.0, nu=0.25))],
+        supports=[
+            sg.Support("pad.top", u=(0.0, 0.0, -0.02), name="down"),
+            sg.Support("block.bottom", u=(0.0, 0.0, 0.0)),
+        ],
+        loads=[sg.Load("pad.left", traction=(30.0, 11.0, 0.0), name="pull")],
+        contacts=[sg.Contact("pad.bottom", "block.top", friction=friction, name="joint")],
+        steps=[
+            sg.Step(name="press", scale={"down": 1.0}, increments=1),
+            sg.Step(name="pull", scale={"pull": 1.0}, increments=increments),
+        ],
+    )

@@ -62,7 +62,7 @@ def outputs(model):
         "mean": sg.pressure("joint").mean(),
         "traction": sg.traction("joint")[middle],
         "gap": sg.gap("joint")[int(bottom[0])],
-        "motion": sg.motion("joint")[middle],
+        "motion": sg.motion("joint")[int(bottom[-1])],
         "force": sg.force("joint", along=(0.3, 1.0)),
         "moment": sg.moment("joint", about=(0.2, 1.5)),
         "half-width": sg.halfwidth("joint"),
@@ -89,6 +89,13 @@ def solved():
     return model, solution, {name: solution.derivative(output) for name, output in outputs(model).items()}
 
 
+def moved(model, factor):
+    """The sides of the pad and the top of the block bent, whose held and loaded sides stay."""
+    x, y = model.mesh.points.T
+    bent = np.column_stack([0.1 * np.sin(2.0 * y) * y * (2.0 - y), 0.05 * np.cos(1.5 * x) * y * (2.0 - y)])
+    return replace(model, mesh=replace(model.mesh, points=model.mesh.points + factor * bent)), bent
+
+
 def check(model, derivatives, parameter):
     found = differences(model, parameter)
     size = {"interference": 1e-2, "E": 1e3, "expansion": 1e-4}.get(parameter.partition(".")[0], 1.0)
@@ -108,6 +115,20 @@ def test_a_ring_has_the_same_derivatives(parameter):
     model = rig("axisymmetric")
     solution = sg.solve(model, tape=True)
     check(model, {name: solution.derivative(output) for name, output in outputs(model).items()}, parameter)
+
+
+def test_the_shape_of_bodies_is_a_parameter(solved):
+    model, _, derivatives = solved
+    found, step = [], 2e-6
+    for q in (step, -step):
+        view = sg.solve(moved(model, q)[0], tape=True)._taped.view
+        found.append({name: value(output, view) for name, output in outputs(model).items()})
+    for name, derivative in derivatives.items():
+        wanted = (found[0][name] - found[1][name]) / (2.0 * step)
+        lost = abs(derivative.shape(moved(model, 0.0)[1]) - wanted)
+        assert lost <= 1e-6 * max(abs(wanted), abs(derivative.value)), (name, lost, wanted)
+    with pytest.raises(sg.InputError, match="a motion of some node"):
+        derivatives["peak"].shape(np.zeros(2))
 
 
 def test_outputs_are_those_of_the_solution(solved):

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
 from signorini.derivative.body_changes import BodyChange
@@ -16,7 +17,7 @@ from signorini.derivative.changes import LoadChange, imposed_by
 from signorini.derivative.functionals import displacement_weights, value, weights
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.outputs import Displacement, Output, Stress
-from signorini.derivative.parameters import change_of, names_of
+from signorini.derivative.parameters import change_of, names_of, shape_change
 from signorini.derivative.points import tape_points
 from signorini.derivative.recursion import Adjoint, Change, PointChange, PointTerm, Weights, backward, forward
 from signorini.derivative.refusals import refuse_tape
@@ -180,6 +181,23 @@ class Derivative:
     def holds(self, parameter: str) -> Validity:
         """In which changes of a parameter, ``kind.name``, the sequence of events stays; to first order."""
         return self._history.holds(*split(parameter))
+
+    def shape(self, motion: ArrayLike) -> float:
+        """The derivative by a motion of the nodes, (nodes, d): a dimension of the bodies as it grows by 1.
+
+        Normals, areas, gaps and loads move along.
+
+        Raises
+        ------
+        InputError
+            Where the motion has another shape, or moves nothing.
+        """
+        model = self._history.prepared.model
+        moved = np.asarray(motion, dtype=np.float64)
+        if moved.shape != model.mesh.points.shape or not moved.any():
+            words = f"has shape {moved.shape}; expected {model.mesh.points.shape}, a motion of some node"
+            raise InputError(words, where=("motion",))
+        return self._along(shape_change(self._history.prepared, moved))
 
     def _all(self, kind: str) -> ByName:
         return ByName(names_of(self._history.prepared, kind), lambda name: self._by(kind, name))

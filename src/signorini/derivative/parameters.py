@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from signorini.arrays import Array, extent
 from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import FrictionChange, GapChange, LoadChange
 from signorini.derivative.moduli import ModulusChange, with_material
@@ -18,6 +21,7 @@ KINDS = ("friction", "adhesion", "shear_limit", "interference", "load", "support
 """Of parameters that are one number; gaps are given node by node."""
 
 _STEP = 1e-5  # of Poisson's ratio, and of a modulus: K is smooth in both, differences right to a part in 1e9
+_PART = 1e-6  # of the size of the model: how far nodes move at most for differences
 _LAWS = ("friction", "adhesion", "shear_limit")
 
 
@@ -73,6 +77,16 @@ def change_of(prepared: Prepared, kind: str, name: str, *, of_bodies: bool = Fal
     given = float(getattr(material, kind))
     step = _STEP if kind == "nu" else _STEP * (abs(given) or 1.0)
     low, high = (with_material(model, body, **{kind: given + part}) for part in (-step, step))
+    return BodyChange.of(low, high, step)
+
+
+def shape_change(prepared: Prepared, motion: Array) -> BodyChange:
+    """What a motion of the nodes (nodes, d), length per unit, changes at once."""
+    model = prepared.model
+    step = _PART * float(extent(model.mesh.points).max()) / float(np.abs(motion).max())
+    low, high = (
+        replace(model, mesh=replace(model.mesh, points=model.mesh.points + part * motion)) for part in (-step, step)
+    )
     return BodyChange.of(low, high, step)
 
 
