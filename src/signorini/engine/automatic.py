@@ -29,7 +29,7 @@ _CERTAIN = 16  # increments on a way in space of which it is believed that it ju
 _VAIN = 16  # times as many increments, that change the answer no less: it does not settle
 _LOST = 4  # times the number that is enough: the most that are tried where a way in space is lost
 _BALANCE = 1e-4  # of the work of a stride in space: energy that is missing where increments pass over events
-_ACTING = (4, 16, 64, 256)  # times shorter increments where pairs act, which are tried in turn until no more is missing
+_ACTING = 16  # times shorter increments of strides where pairs act: energy balances to a tenth of that, or better
 _FINER_HINT = 'expected less? Give the step increments = "auto" or their number'
 
 
@@ -82,9 +82,11 @@ def follow_automatically(
         if coarse is not None:
             change, changes = _change(coarse, fine)
             note = f"{words}: {fewer} change {changes}"
-            settled = change <= tolerance and (number >= _CERTAIN or _missing(prepared, fine) <= tolerance)
+            missing, allowed = _missing(prepared, fine), _BALANCE if prepared.model.slides else tolerance
+            settled = change <= tolerance and (number >= _CERTAIN or missing <= allowed)
             if settled or (enough is not None and number >= enough):
-                fine = _balanced(part, fine, number, jump) if prepared.model.slides else fine
+                if prepared.model.slides and missing > _BALANCE:
+                    note = f"{note}; energy is missing by {missing:.1e} of the work"
                 note = note if settled else f"{note}; {_FINER_HINT}"
                 return replace(fine, path="increments", notes=(*fine.notes, note))
             seen[number] = change
@@ -129,42 +131,15 @@ def _missing(prepared: Prepared, followed: FollowedPart) -> float:
     return missing_energy(prepared, followed.before, followed.after)
 
 
-def _balanced(
-    part: StepPart, followed: FollowedPart, number: int, jump: Literal["stop", "follow"] | None
-) -> FollowedPart:
-    """Increments of a stride in space, once more and shorter where pairs act, until energy is not missing any more.
-
-    Parameters
-    ----------
-    part, jump : as of `follow_automatically`
-    followed : in so many increments
-    number : of them, at most
-    """
-    missing = _missing(part.prepared, followed)
-    if missing <= _BALANCE:
-        return followed
-    words = ""
-    for acting in _ACTING:
-        try:
-            finer = follow_to_events(part, number, jumps=jump == "follow", acting=acting)
-        except SolveFailed:
-            break
-        if (left := _missing(part.prepared, finer)) < missing:
-            followed, missing = finer, left
-            words = f"{_counted(len(finer.trace))}, where pairs act down to 1/{number * acting}"
-        if missing <= _BALANCE:
-            break
-    words = f"{words}: " if words else ""
-    return replace(followed, notes=(*followed.notes, f"{words}energy is missing by {missing:.1e} of its work"))
-
-
 def _followed(part: StepPart, number: int, jump: Literal["stop", "follow"] | None) -> tuple[FollowedPart, str]:
     """A way in at most so many increments, and their number in words; equal ones where those to events are lost."""
     if not part.prepared.watched:
         return follow_watchfully(part, number, stops=jump == "stop"), _counted(number)
     try:
-        followed = follow_to_events(part, number, jumps=jump == "follow")
-        return followed, f"{_counted(len(followed.trace))} to events, none needs to be shorter than 1/{number}"
+        acting = _ACTING if part.prepared.model.slides and number >= _CERTAIN else 1
+        followed = follow_to_events(part, number, jumps=jump == "follow", acting=acting)
+        words = f"{_counted(len(followed.trace))} to events, none needs to be shorter than 1/{number * acting}"
+        return followed, words
     except SolveFailed as failure:
         if failure.status == Outcome.JUMP and jump == "stop":
             raise

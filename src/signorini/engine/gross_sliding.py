@@ -95,6 +95,8 @@ def slide(link: Link, now: StridePairs, depth: Array, limit: float) -> Gone | No
     limit : the longest stride, length
     """
     closed = closed_of(now)
+    if len(now.r) > 2:
+        return None
     code = int(now.status[closed[0]]) if len(closed) else OPEN
     if code not in (SLIP_PLUS, SLIP_MINUS) or not (now.status[closed] == code).all():
         return None
@@ -118,7 +120,7 @@ class _Slip:
         self.ends[1, :a] += self.gap
         # whatever fades away, and rigid motions from there on, are in what the beginning is
         p = now.r[0]
-        self.ends[0] = np.concatenate([now.gap, self.begin.tangential]) - self.moves @ p
+        self.ends[0] = np.concatenate([now.gap, self.begin.tangential[0]]) - self.moves @ p
         self.resultants[0] = -(track.sliding(self.sign)[1] @ p)
         self.small = _LACKS * track.prepared.scale.compressed
 
@@ -151,7 +153,7 @@ class _Slip:
             pivots=1,
             residual=0.0,
         )
-        t, p, h = 0.0, self.now.r[0], np.concatenate([self.now.gap, self.begin.tangential])
+        t, p, h = 0.0, self.now.r[0], np.concatenate([self.now.gap, self.begin.tangential[0]])
         begin, pressing = (p, h), np.zeros(a)
         for events in range(_EVENTS):
             p0, h0 = begin if not events else self.solved(closed, 0)[:2]
@@ -220,7 +222,7 @@ class _Slip:
             r=np.array([p, self.sign * self.track.friction * p]),
             ways=ways,
             gap=np.where(status == OPEN, np.maximum(h[: self.a], 0.0), 0.0),
-            tangential=h[self.a :],
+            tangential=h[None, self.a :],
             status=status,
         )
         return replace(gone, pairs=pairs, residual=residual)

@@ -31,9 +31,10 @@ class StridePairs:
 
     Attributes
     ----------
-    r : (2, a) forces, normal and tangential
+    r : (d, a) forces, normal and tangential
     ways : (k,) of the bodies along rigid motions
-    gap, tangential, slip : (a,) length
+    gap : (a,) length
+    tangential, slip : (d - 1, a) length
     status : (a,) codes of the law
     dissipation : (a,) energy
     """
@@ -55,10 +56,10 @@ class Track:
     ----------
     prepared : with its pairs, and the sides as these see them
     points : of the loads at its ends; gaps without wear
-    tangential : (a,) tangential displacement of the bodies at its end, as it was recorded
-    X : (2 a, 2 a) motions of the pairs over forces, length per force
-    N : (2 a, k) over rigid motions
-    free : (2, 2 a) motions under the loads at its ends, and what supports impose
+    tangential : (d - 1, a) tangential displacement of the bodies at its end, as it was recorded
+    X : (d a, d a) motions of the pairs over forces, length per force
+    N : (d a, k) over rigid motions
+    free : (2, d a) motions under the loads at its ends, and what supports impose
     resultants : (2, k) of the loads
     """
 
@@ -89,7 +90,7 @@ class Track:
         return Track(
             prepared=prepared,
             points=points,
-            tangential=stride.followed.after.tangential[0, condensed.active],
+            tangential=stride.followed.after.tangential[:, condensed.active],
             X=X,
             N=condensed.response.motions,
             free=np.array(free),
@@ -129,7 +130,7 @@ class Track:
 
     @cached_property
     def loads(self) -> Array:
-        """(2, 2 a) b of the law at its ends, between sides that touch nowhere."""
+        """(2, d a) b of the law at its ends, between sides that touch nowhere."""
         condensed, found = self.prepared.paths.condensed, []
         for point in self.points:
             load = condensed.reduce(free_load(self.prepared, point)).load
@@ -138,32 +139,57 @@ class Track:
         return np.array(found)
 
     def sliding(self, sign: float) -> tuple[Array, Array]:
-        """(2 a, a) Motions over normal forces of pairs that slip, friction along ``sign``, and (k, a) resultants."""
+        """As of `_with_friction`, of pairs of the plane that slip, friction along ``sign``."""
         return self._sliding_plus if sign > 0.0 else self._sliding_minus
 
     @cached_property
     def _sliding_plus(self) -> tuple[Array, Array]:
-        return self._with_friction(self.friction)
+        return self._with_friction(self.friction[None])
 
     @cached_property
     def _sliding_minus(self) -> tuple[Array, Array]:
-        return self._with_friction(-self.friction)
+        return self._with_friction(-self.friction[None])
 
     def _with_friction(self, f: Array) -> tuple[Array, Array]:
-        a = len(f)
-        return self.X[:, :a] + self.X[:, a:] * f, (self.N[:a] + f[:, None] * self.N[a:]).T
+        """(d a, a) Motions, and (k, a) resultants, over normal forces of pairs with friction (d - 1, a) over these."""
+        d, a = len(f) + 1, f.shape[1]
+        moves = self.X[:, :a] + (self.X[:, a:].reshape(d * a, d - 1, a) * f).sum(axis=1)
+        resists = self.N[:a] + (f[..., None] * self.N[a:].reshape(d - 1, a, -1)).sum(axis=0)
+        return moves, resists.T
 
     def inverse(self, sign: float, closed: IntArray) -> Array:
-        """Of the system of closed pairs that slip and rigid motions, kept for the cycles that come."""
+        """Of the system of closed pairs of the plane that slip and rigid motions, kept for the cycles that come."""
         key = sign, closed.tobytes()
         found = self.inverses.get(key)
         if found is None:
-            (moves, resists), c, k = self.sliding(sign), len(closed), self.N.shape[1]
-            system = np.zeros((c + k, c + k))
-            system[:c, :c] = moves[np.ix_(closed, closed)]
-            system[:c, c:], system[c:, :c] = self.N[closed], resists[:, closed]
-            found = self.inverses[key] = np.linalg.inv(system)
+            found = self.inverses[key] = self._inverse(self.sliding(sign), closed)
         return found
+
+    def _inverse(self, sliding: tuple[Array, Array], closed: IntArray) -> Array:
+        (moves, resists), c, k = sliding, len(closed), self.N.shape[1]
+        system = np.zeros((c + k, c + k))
+        system[:c, :c] = moves[np.ix_(closed, closed)]
+        system[:c, c:], system[c:, :c] = self.N[closed], resists[:, closed]
+        return np.linalg.inv(system)
+
+    def stiffness(self, pairs: StridePairs, closed: IntArray) -> Array | None:
+        """(c, c) Normal forces of closed pairs over their gaps where friction goes on as it is; None where none slips.
+
+        Parameters
+        ----------
+        pairs : at the end of the stride
+        closed : numbers of those that touch, all with friction
+        """
+        size = np.linalg.norm(pairs.r[1:], axis=0)
+        slips = (pairs.status > STICK) & (size > 0.0)
+        if not slips.any():
+            return None
+        ways = np.divide(pairs.r[1:], size, out=np.zeros_like(pairs.r[1:]), where=slips)
+        if len(ways) == 1:
+            found = self.inverse(1.0 if ways.sum() >= 0.0 else -1.0, closed)
+        else:
+            found = self._inverse(self._with_friction(self.friction * ways), closed)
+        return found[: len(closed), : len(closed)]
 
     def pairs(self, now: PathState, gap: Array, at: int) -> StridePairs:
         """A state of the path in units of the problem.
@@ -182,8 +208,8 @@ class Track:
             r=r,
             ways=np.linalg.lstsq(self.N, beyond, rcond=None)[0] if self.N.shape[1] else np.zeros(0),
             gap=h[0],
-            tangential=h[1],
-            slip=now.slip[0] / root,
+            tangential=h[1:],
+            slip=now.slip / root,
             status=now.state,
             dissipation=now.dissipation,
         )
@@ -201,14 +227,14 @@ class Track:
         b = self.loads[at] + condensed.of_gaps(gap)
         if fading is not None:
             b = b + condensed.right_hand_side(fading, np.zeros_like(pairs.r))
-        h = condensed.root * np.array([pairs.gap, pairs.tangential])
+        h = condensed.root * np.concatenate([pairs.gap[None], pairs.tangential])
         return PathState(
             b=b,
             h=h,
             r=pairs.r / condensed.root,
             state=pairs.status,
             anchor=h[1:],
-            slip=(condensed.root * pairs.slip)[None],
+            slip=condensed.root * pairs.slip,
             dissipation=pairs.dissipation,
         )
 
@@ -220,8 +246,8 @@ class Link:
     Attributes
     ----------
     last, next : the strides
-    across : (2 a, 2 a) motions of the next one's pairs over forces of the last one's
-    free : (2 a,) motions of the last one's pairs under the loads at the end of the next
+    across : (d a, d a) motions of the next one's pairs over forces of the last one's
+    free : (d a,) motions of the last one's pairs under the loads at the end of the next
     """
 
     last: Track
@@ -249,7 +275,7 @@ class Link:
         moved = self.across @ now.r.ravel() + self.next.free[0] + self.next.N @ now.ways
         moved = moved + two.compliance.ravel() * now.r.ravel()
         fading = np.asarray((one.B - two.B).T @ now.r.ravel())
-        return replace(now, tangential=moved[a:]), now.gap - moved[:a], fading
+        return replace(now, tangential=moved[a:].reshape(now.tangential.shape)), now.gap - moved[:a], fading
 
     def booked(self, old: StridePairs, new: StridePairs, opened: Array, pressing: Array) -> tuple[Array, float]:
         """Of the work of the change of pairs in the next stride (a,) friction's share, and what is set free.
@@ -267,7 +293,7 @@ class Link:
         by_next = track.X @ r1 - soft[1] * r1 + track.free[1] + track.N @ new.ways
         by_next -= self.across @ r0 + track.free[0] + track.N @ old.ways
         work = 0.5 * old.r * (by_last - by_next).reshape(old.r.shape)
-        taken = np.where(old.status > STICK, -work[1], 0.0)
+        taken = np.where(old.status > STICK, -work[1:].sum(axis=0), 0.0)
         return taken, float(pressing @ opened - work.sum() - taken.sum())
 
 

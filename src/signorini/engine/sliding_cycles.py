@@ -14,6 +14,7 @@ from typing import Self
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.engine.events import stops_at
 from signorini.engine.gross_sliding import Gone, slide
 from signorini.engine.path_states import balanced, path_state, recovered
 from signorini.engine.prepare import Prepared
@@ -28,6 +29,7 @@ from signorini.law.states import OPEN
 from signorini.solution.state import LoadPoint, State, wear_of
 from signorini.solution.wear_state import WearState
 
+_SHORTEST_INCREMENT = 2.0**-8  # of a stride in space: it misses less than 1e-4 of its work then
 _DRIFT = 0.1  # of a stride: how far bodies may be from where its pairs were found
 
 
@@ -70,11 +72,13 @@ class SlidingCycles:
     Attributes
     ----------
     recur : whether cycles can go through these strides again
+    stops : how increments are chosen in space; None: event by event
     """
 
-    stops: PathSettings | None = None
-
     def __init__(self, prepared: Prepared, strides: list[Stride], recorded: int, followed: int) -> None:
+        self.stops: PathSettings | None = None
+        if prepared.interface.directions == 3:
+            self.stops = replace(stops_at(1, prepared.settings), shortest=_SHORTEST_INCREMENT)
         self.recorded, self.followed = recorded, followed
         self._lost = False  # whether the last cycle drifted too far
         self._nominal = prepared
@@ -152,7 +156,9 @@ class SlidingCycles:
         assert isinstance(at, StrideCycle)
         home = self._home
         gap = home.gaps[1] + home.seen @ wear.beyond
-        segment = self.prepared.paths.follow(at.now, home.loads[1] + self._of_gaps(home, gap), None, lambda _: None)
+        segment = self.prepared.paths.follow(
+            at.now, home.loads[1] + self._of_gaps(home, gap), self.stops, lambda _: None
+        )
         if not segment.followed:
             return None
         rubbing = rubbing_of_segment(self.sides, self.prepared.interface, self.prepared.paths, segment)
@@ -191,7 +197,8 @@ class SlidingCycles:
 
     def _drifted(self, track: Track, pairs: StridePairs) -> bool:
         touch = pairs.status != OPEN
-        return bool(np.abs(pairs.tangential - track.tangential)[touch].max(initial=0.0) > _DRIFT * self._limit)
+        off = np.linalg.norm(pairs.tangential - track.tangential, axis=0)
+        return bool(off[touch].max(initial=0.0) > _DRIFT * self._limit)
 
     def _stride(self, link: Link, pairs: StridePairs, depth: Array) -> Gone | None:
         """To the end of a stride; None where no path leads there."""
@@ -204,7 +211,7 @@ class SlidingCycles:
         begin, first, fading = link.begun(pairs)
         end: Array = track.gaps[1] + track.seen @ depth
         segment = paths.follow(
-            track.state(begin, first, 0, fading), track.loads[1] + self._of_gaps(track, end), None, lambda _: None
+            track.state(begin, first, 0, fading), track.loads[1] + self._of_gaps(track, end), self.stops, lambda _: None
         )
         if not segment.followed:
             return None

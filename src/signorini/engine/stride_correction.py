@@ -17,7 +17,6 @@ from signorini.engine.gross_sliding import Gone
 from signorini.engine.recurring_strides import Track, closed_of
 from signorini.engine.sliding_cycles import StridesCycle
 from signorini.engine.wear_paths import FollowedCycle
-from signorini.law.states import SLIP_MINUS, SLIP_PLUS
 
 
 def corrected(cycle: FollowedCycle, worn: Array, count: int) -> Array:
@@ -39,10 +38,9 @@ def corrected(cycle: FollowedCycle, worn: Array, count: int) -> Array:
 
 def _of_depths(track: Track, gone: Gone) -> Array:
     """(m, m) By how much less volume a stride rubs off over depths of the sides; 0 where its pairs do not slip."""
-    closed, status = closed_of(gone.pairs), gone.pairs.status
-    plus, minus = (int((status == code).sum()) for code in (SLIP_PLUS, SLIP_MINUS))
-    if not plus + minus or not (track.friction[closed] > 0.0).all():
+    closed = closed_of(gone.pairs)
+    stiff = track.stiffness(gone.pairs, closed) if (track.friction[closed] > 0.0).all() else None
+    if stiff is None:
         return np.zeros((len(track.sides), len(track.sides)))
-    stiff = track.inverse(1.0 if plus >= minus else -1.0, closed)[: len(closed), : len(closed)]
     rubs = track.wearing(gone.distance, track.friction * gone.distance)[closed]
     return np.asarray(track.wears[:, closed] @ (rubs[:, None] * (stiff @ track.seen[closed])))

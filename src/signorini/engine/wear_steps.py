@@ -161,7 +161,7 @@ class _Walk:
         m = step.segments
         steady = np.array_equal(start.gap, self.end.gap) and not start.given.any() and not start.reaction.any()
         alike = stage.ends[:m] == stage.ends[m : 2 * m]
-        exact = step.increments is None and step.path != "increments" and self.prepared.interface.directions == 2
+        exact = step.increments is None and step.path != "increments"
         looked_at = step.at == "events" or self.heated or self.prepared.turns
         return steady and alike and exact and not looked_at
 
@@ -198,8 +198,8 @@ class _Walk:
         if self.prepared.model.slides:
             if not self._may_recur:
                 words = (
-                    "blocks of cycles that slide far need strides that recur: two dimensions, exact paths, no results "
-                    "at events, no temperature, no body that turns, and cycles alike; expected that, or no 'block'"
+                    "blocks of cycles that slide far need strides that recur: no 'increments', no results at events, "
+                    "no temperature, no body that turns, and cycles alike; expected that, or no 'block'"
                 )
         elif self._of_pairs_that_stay is None:
             words = "blocks of cycles need exact paths; expected no 'increments', and no results at events"
