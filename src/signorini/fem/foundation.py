@@ -34,12 +34,16 @@ def _springs(space: Space, model: Model, foundation: Foundation, where: tuple[st
 
 
 def _of_block(space: Space, model: Model, foundation: Foundation, block: FacetBlock) -> list[sp.csr_array]:
-    """Springs on facets of one kind: along the normal, then along tangents."""
+    """Springs on facets of one kind: along the normal, then along tangents, with twist the hoop too."""
     normals = block.outward / block.weights[..., None]
+    tangents = list(np.moveaxis(unit_tangents(normals), -2, 0))
     areas, parts = facet_areas(model, block), []
+    if model.twists:
+        normals, *tangents = (np.pad(axes, ((0, 0), (0, 0), (0, 1))) for axes in (normals, *tangents))
+        tangents.append(np.broadcast_to(np.eye(3)[2], normals.shape))
     for stiffness, directions in (
         (foundation.normal_stiffness, normals),
-        *((foundation.tangential_stiffness, tangents) for tangents in np.moveaxis(unit_tangents(normals), -2, 0)),
+        *((foundation.tangential_stiffness, along) for along in tangents),
     ):
         if stiffness > 0.0:
             size = np.sqrt(stiffness * np.maximum(areas, 0.0))[..., None] * directions

@@ -189,7 +189,6 @@ def make_interface(
 
     fibres = np.array([contact.friction_axis or (0.0,) * 3 for contact in model.contacts]).reshape(-1, 3)[index]
     axes, still = tangents(normals, mirrored, fibres)
-    _refuse_no_fibre(space, model, node, index, normals, mirrored)
     friction = PairFriction.of(
         [model.contacts[i].law for i in chosen], [space.mesh.points[part.coupling.nodes] for part in parts]
     )
@@ -198,6 +197,8 @@ def make_interface(
     B = _relative_rows(space, model, parts, normals, axes, still)
     if model.twists:
         normals, axes = with_hoop(normals, axes)
+        mirrored = np.pad(mirrored, ((0, 0), (0, 1)))
+    _refuse_no_fibre(space, model, node, index, normals, mirrored)
     own = [part.own for part in parts]
     return Interface(
         B=B,

@@ -161,16 +161,21 @@ def make_bodies(
 
 
 def _near_null(points: Array, nodes: IntArray, axis: IntArray, d: int) -> Array:
-    """(z, k) Translations and small rotations of everything together; what has no place only moves along."""
+    """(z, k) Translations and small rotations of everything together; what has no place only moves along.
+
+    Of bodies of revolution those of their meridian, a ring that twists in its plane, and the turn about the axis.
+    """
     on_mesh = (nodes < len(points))[:, None]
     centre = points.mean(axis=0)
     arm = np.where(on_mesh, points[np.minimum(nodes, len(points) - 1)] - centre, 0.0)
     arm /= np.abs(arm).max(initial=0.0) or 1.0
     modes = [axis == j for j in range(d)]
     rows = np.arange(len(axis))
-    for j in range(d):
+    for j in range(points.shape[1]):
         for k in range(j):
             turned = np.zeros((len(axis), d))
             turned[:, j], turned[:, k] = arm[:, k], -arm[:, j]
             modes.append(turned[rows, axis])
+    if d > points.shape[1]:
+        modes.append(np.where(axis == 2, arm[:, 0], 0.0))
     return np.column_stack(modes).astype(np.float64)

@@ -97,6 +97,11 @@ def check_twist(bodies: Sequence[Body], contacts: Sequence[Contact]) -> None:
             words = f"'{body.name}' yields; expected elastic bodies where they twist, or a model in space"
             raise InputError(words, where=("body", i, "material"))
     for i, contact in enumerate(contacts):
+        if contact.friction_axis is not None and contact.friction_axis[2] and any(contact.friction_axis[:2]):
+            raise InputError(
+                f"is {contact.friction_axis}; expected (r, z, 0) along the meridian or (0, 0, 1) around the axis",
+                where=("contact", i, "friction_axis"),
+            )
         if contact.wear is not None:
             raise InputError("is given, but bodies twist; expected none", where=("contact", i, "wear"))
         if contact.slides:
