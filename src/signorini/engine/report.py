@@ -159,7 +159,7 @@ def _reactions(prepared: Prepared, state: State, held: Array) -> dict[str, Array
     model, owner, d = prepared.model, prepared.constraints.owner, prepared.model.components
     rigid = {body.name: j for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))}
     own = np.flatnonzero(owner >= 0)
-    total, arms = np.zeros((len(model.supports), d)), _arms(prepared)
+    total, arms = np.zeros((len(model.supports), d)), prepared.space.arms
     np.add.at(total, (owner[own], own % d), held[own] * arms[own])
     forces = {}
     for i, support in enumerate(model.supports):
@@ -170,14 +170,6 @@ def _reactions(prepared: Prepared, state: State, held: Array) -> dict[str, Array
     for name, S in prepared.constraints.springs.items():
         forces[name] = frozen(-(S.T @ (S @ state.displacement) * arms).reshape(-1, d).sum(axis=0))
     return forces
-
-
-def _arms(prepared: Prepared) -> Array:
-    """(dofs,) What forces are multiplied by in resultants: 1, along the hoop the radius, which makes a torque."""
-    arms = np.ones(prepared.space.number_of_dofs)
-    if prepared.model.twists:
-        prepared.space.at_nodes(arms)[:, 2] = prepared.space.mesh.points[:, 0]
-    return arms
 
 
 def _rigid_dofs(prepared: Prepared, j: int) -> tuple[IntArray, Array]:

@@ -152,7 +152,7 @@ def _in_state(probe: StressProbe, state: StepResult | Instant, displacement: Arr
         return stress, gradient, np.zeros_like(stress)
     strains = by_family(probe.space, probe.model, state.plastic.state.strain)
     deformed = DeformedBodies.of(probe.space, probe.model, displacement, state.factors, strains)
-    width = 4 if probe.model.dimension == 2 else 6
+    width = 4 if probe.model.components == 2 else 6
 
     def flowed(group: Group) -> Array:
         found = at_best_points(group, strains)

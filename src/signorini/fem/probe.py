@@ -145,7 +145,7 @@ class StressProbe:
 
     def elastic_strain(self, stress: Array) -> Array:
         """Strains (p, ..., 6), as tensors, that stresses (p, ..., 6) are due to."""
-        kind = "3d" if self.model.dimension == 3 else "plane strain"
+        kind = "3d" if self.model.components == 3 else "plane strain"
         C = np.array([np.linalg.inv(elasticity(body.material, kind)) for body in self.model.bodies])
         strain, n = np.zeros_like(stress), C.shape[1]
         strain[..., :n] = np.einsum("pcd,p...d->p...c", C[self.body], stress[..., :n])

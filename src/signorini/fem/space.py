@@ -219,6 +219,14 @@ class Space:
         """Values of all dofs (dofs,) at the nodes, (nodes, c), without those of obstacles."""
         return values[: self.dofs_of_nodes].reshape(-1, self.components)
 
+    @property
+    def arms(self) -> Array:
+        """(dofs,) What forces are multiplied by in resultants: 1, with twist along the hoop the radius: a torque."""
+        arms = np.ones(self.number_of_dofs)
+        if self.components > self.dimension:
+            self.at_nodes(arms)[:, 2] = self.mesh.points[:, 0]
+        return arms
+
     def farthest(self, displacement: Array) -> float:
         """The longest way of a node of the mesh, of displacements (dofs,), in whatever direction, length."""
         return float(np.linalg.norm(self.at_nodes(displacement), axis=1).max())

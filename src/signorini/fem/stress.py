@@ -197,7 +197,7 @@ def point_strains(deformed: DeformedBodies) -> Iterator[tuple[IntArray, Array]]:
     the strain across.
     """
     space, model = deformed.space, deformed.model
-    kind = "3d" if model.dimension == 3 else "plane strain"
+    kind = "3d" if model.components == 3 else "plane strain"
     C = np.linalg.inv(np.array([elasticity(body.material, kind) for body in model.bodies]))
     for group in groups(space, model):
         strain = np.einsum("mcd,mqd->mqc", C[group.body], deformed.stress(group))

@@ -15,10 +15,11 @@ from signorini.model.varying import spell
 
 
 def total_force(examined: Examined, load: Load) -> list[float]:
-    """The force of a load at factor 1, (d,); on a rigid body its moments follow."""
+    """The force of a load at factor 1, (d,), with twist the third a torque; on a rigid body its moments follow."""
     if load.force and load.on in {body.name for body in examined.model.rigid_bodies}:
         return [part or 0.0 for part in load.force]
-    return list(examined.space.at_nodes(examined.loads[load.label]).sum(axis=0).tolist())
+    space = examined.space
+    return list(space.at_nodes(examined.loads[load.label] * space.arms).sum(axis=0).tolist())
 
 
 def deck_data(deck: Deck, examined: Examined, notes: Sequence[str]) -> dict[str, Any]:

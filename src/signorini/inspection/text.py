@@ -220,7 +220,7 @@ def _way(step: Step, model: Model) -> str:
     if step.increments is not None:
         return "1 increment" if step.increments == 1 else f"{step.increments} increments"
     if step.path is None:
-        way = "exact path" if model.dimension == 2 else "increments to events"
+        way = "exact path" if model.components == 2 else "increments to events"
         keeps = any(contact.closure is not None and contact.closure.unloading is not None for contact in model.contacts)
         return way if keeps else f"{way} where there is friction, otherwise 1 increment"
     return "exact path" if step.path == "exact" else "1 increment"

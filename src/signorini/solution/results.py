@@ -78,14 +78,16 @@ class ContactResult(Short):
 
     @property
     def normal_force(self) -> Array:
-        """Resultant of the pressure on the nonmortar body, (d,) force."""
+        """Resultant of the pressure on the nonmortar body, (d,) force; with twist the third one is a torque."""
         force: Array = (self.pressure * self.area) @ self.normals
         return force
 
     @property
     def tangential_force(self) -> Array:
-        """Resultant of the friction on the nonmortar body, (d,) force."""
+        """Resultant of the friction on the nonmortar body, (d,) force; with twist the third one is a torque."""
         force: Array = self.area @ self.shear
+        if self.twists:
+            force[2] = self.torque
         return force
 
     @property
@@ -300,7 +302,8 @@ class StepResult(Short):
     external : (nodes, d) loads and reactions of supports, force
     obstacles : moving obstacles by name
     rigid_bodies : the same of rigid bodies
-    reactions : support or elastic foundation to its force on the bodies, (d,); on a rigid body with its moments
+    reactions : support or elastic foundation to its force on the bodies, (d,), with twist the third one a torque; on a
+        rigid body with its moments
     strain_energy : of the bodies
     interface_energy : of compliant interfaces and elastic foundations
     work : of loads, moving supports, interferences and changes of temperature in this step
