@@ -115,3 +115,41 @@ def test_twist_that_supports_prescribe():
     assert found.work == pytest.approx(0.5 * torque * 1e-5, rel=1e-12)
     corner = replace(turned, supports=[*model.supports, sg.Support((10.0, 8.0), u=(None, None, 1e-4), name="top")])
     assert sg.solve(corner).last.displacement[-1, 2] == pytest.approx(1e-4, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["axisymmetric", TWIST])
+def test_a_bolt_bears_torque_through_its_section(kind):
+    """A shank that is cut and drawn together is as long and as stiff as one that is not, and twists as one."""
+    mesh = sg.cut(
+        sg.rectangle(width=5.0, height=8.0, nx=2, ny=4, origin=(5.0, 0.0)),
+        "cut",
+        body="block",
+        point=(5.0, 4.0),
+        normal=(0.0, 1.0),
+    )
+    more = (0.0,) if kind == TWIST else ()
+    model = sg.Model(
+        mesh,
+        kind=kind,
+        bodies=[sg.Body("block", STEEL)],
+        supports=[sg.Support("bottom", u=(None, 0.0, *more)), sg.Support("top", u=(None, 0.0, *(None for _ in more)))],
+        loads=[sg.Load("top", torque=1000.0, name="torque")] if more else [],
+        bolts=[sg.Bolt("cut", force=5000.0, name="bolt")],
+        steps=[sg.Step(scale={"bolt": 1.0, **({"torque": 1.0} if more else {})})],
+    )
+    found = sg.solve(model).last
+    assert found.bolts["bolt"].force == pytest.approx(5000.0)
+    assert found.bolts["bolt"].shortening == pytest.approx(5000.0 * 8.0 / (STEEL.E * 75.0 * np.pi), rel=1e-9)
+    if more:
+        exact = shaft_twist(torque=1000.0, shear_modulus=STEEL.shear_modulus, inner=5.0, outer=10.0, length=8.0)
+        assert found.displacement[:, 2].max() == pytest.approx(10.0 * exact, rel=1e-9)
+        assert found.reactions["bottom"][2] == pytest.approx(-1000.0, rel=1e-9)
+
+
+def test_torsional_modes():
+    """A shaft held at one end: f = (2 k - 1) / (4 L) sqrt(G / rho); other modes of so short a shaft are higher."""
+    model = shaft_in_torsion(cells="quad8", n=3)
+    model = replace(model, bodies=[sg.Body("block", replace(STEEL, density=8e-9))], loads=[])
+    model = replace(model, supports=[sg.Support("bottom", u=(0.0, 0.0, 0.0))])
+    (lowest,) = sg.natural_modes(sg.solve(model), 1, joint="stuck").frequencies
+    assert lowest == pytest.approx(np.sqrt(STEEL.shear_modulus / 8e-9) / 32.0, rel=1e-4)

@@ -37,7 +37,7 @@ def with_bolts(model: Model) -> Model:
     for i, bolt in enumerate(model.bolts):
         if bolt.label in taken:
             raise InputError(f"a load or support is called '{bolt.label}' too", where=("bolt", i, "name"))
-        free = (None,) * (model.dimension - 1)
+        free = (None,) * (model.components - 1)
         equations += _halves(model, i)
         if bolt.force is not None:
             loads.append(Load(bolt.section, force=(bolt.force, *(0.0 for _ in free)), name=bolt.label))
@@ -56,6 +56,7 @@ def _halves(model: Model, i: int) -> list[Equation]:
     except InputError as error:
         raise error.inside("bolt", i, "section") from error
     _refuse_contact_between_halves(model, section)
+    normal = np.pad(normal, (0, model.components - model.dimension))
     return section_equations(model.mesh, section, section, normal, name=model.bolts[i].label)
 
 

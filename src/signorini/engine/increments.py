@@ -389,6 +389,6 @@ def leaving(prepared: Prepared, escape: Array) -> tuple[str, Array]:
 
 def moving_away(prepared: Prepared, rigid: Array) -> tuple[str, Array]:
     """The bodies that move by name, and their motion (nodes, d), largest entry 1; ``rigid`` as of all rigid motions."""
-    motion = (prepared.motions @ rigid).reshape(-1, prepared.model.components)
+    motion = prepared.space.at_nodes(prepared.motions @ rigid)
     said = np.where(np.abs(rigid) < _SAID_FROM * np.abs(rigid).max(initial=0.0), 0.0, rigid)
     return describe_motion(prepared.parts, said), frozen(motion / (np.abs(motion).max() or 1.0))

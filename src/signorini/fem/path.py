@@ -79,7 +79,7 @@ def along(
     stress[found.nodes] = found.stress
     if points.shape[1] != space.dimension:
         raise InputError(f"points have {points.shape[1]} coordinates; expected {space.dimension}")
-    moved, stressed = np.zeros_like(points), np.zeros((len(points), 6))
+    moved, stressed = np.zeros((len(points), space.components)), np.zeros((len(points), 6))
     for block, index, cells, values in located(space, model, points, names.index(body)):
         moved[index] = np.einsum("nk,nki->ni", values, displacement[block.cells[cells]])
         stressed[index] = np.einsum("nk,nki->ni", values, stress[block.cells[cells]])

@@ -78,10 +78,12 @@ def film_of(history: History, contact: str | None = None) -> ContactFilm:
     Raises
     ------
     InputError
-        If nothing was solved, there is no such contact, or the model is one in space.
+        If nothing was solved, there is no such contact, or the model is one in space or twists.
     """
     if history.model.dimension == 3:
         raise InputError("a film shows contacts over a line; in space open solution.pvd in ParaView")
+    if history.model.twists:
+        raise InputError("a film shows friction along a line, not around an axis; open solution.pvd in ParaView")
     names = [result.name for result in history.last.contacts]
     if not names:
         raise InputError("the model has no contact to draw")

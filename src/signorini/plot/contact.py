@@ -14,7 +14,7 @@ from signorini.arrays import Array
 from signorini.plot.curve import Curve, closed_range
 from signorini.plot.patch import draw_patches
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import BOUND, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle
+from signorini.plot.style import BOUND, HOOP, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -51,9 +51,15 @@ def _draw(axes: Axes, curve: Curve) -> None:
     if curve.friction > 0:
         name = "friction traction, along the tangent"
         lines += axes.plot(curve.s, curve.traction, squares, color=TRACTION, ms=3.5, lw=1.5, label=name)
+    tractions = [curve.traction]
+    if curve.hoop is not None and curve.friction > 0:
+        tractions.append(curve.hoop)
+        name = "friction traction, around the axis"
+        lines += axes.plot(curve.s, curve.hoop, dots.replace("o", "^"), color=HOOP, ms=4, lw=1.5, label=name)
     if curve.has_bound:
         bound = curve.friction * curve.pressure
-        signs = [sign for sign in (1.0, -1.0) if (sign * curve.traction > 0.01 * bound.max()).any()] or [1.0]
+        seen = np.concatenate(tractions)
+        signs = [sign for sign in (1.0, -1.0) if (sign * seen > 0.01 * bound.max()).any()] or [1.0]
         name = {1: "μ p", 2: "± μ p"}[len(signs)] if signs[0] > 0 else "- μ p"
         for sign in signs:
             line = axes.plot(curve.s, sign * bound, "--", color=BOUND, lw=1.0, alpha=0.8)

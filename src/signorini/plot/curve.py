@@ -27,6 +27,7 @@ class Curve:
     axis : what the coordinate is: "x", "y", or "angle in degrees" about the middle of a closed surface
     s : (n,) increasing coordinate
     pressure, traction : (n,) force per area; traction is friction on the nonmortar body along the tangent
+    hoop : (n,) friction around the axis where bodies of revolution twist; None elsewhere
     status : (n,) see `status_words`
     friction : see `coefficient`
     """
@@ -37,6 +38,7 @@ class Curve:
     s: Array
     pressure: Array
     traction: Array
+    hoop: Array | None
     status: NDArray[np.str_]
     friction: float
 
@@ -67,7 +69,8 @@ def curve_of(law: Contact, contact: ContactResult, step: str) -> Curve:
         axis=axis,
         s=np.sort(s),
         pressure=contact.pressure[own],
-        traction=contact.traction[own],
+        traction=contact.traction[own, 0] if contact.twists else contact.traction[own],
+        hoop=contact.traction[own, 1] if contact.twists else None,
         status=status_words(contact)[own],
         friction=coefficient(law),
     )

@@ -10,6 +10,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.plot.camera import best_view
+from signorini.plot.oblique import AROUND, oblique
 from signorini.plot.paint import body_paint, paint_skin
 from signorini.plot.skin import make_skin
 from signorini.plot.style import INK, PRESSURE, TRACTION, frame
@@ -50,7 +51,9 @@ def plot_escape(history: History) -> Figure:
     axes.quiver(
         *flat[chosen].T, *along[chosen].T, angles="xy", scale_units="xy", scale=1.0, color=INK, width=0.004, zorder=4
     )
-    axes.set_title("no equilibrium: the loads carry the bodies away", loc="left", fontsize=11, color=INK)
+    around = f"\n{AROUND}" if history.model.twists else ""
+    title = f"no equilibrium: the loads carry the bodies away{around}"
+    axes.set_title(title, loc="left", fontsize=11, color=INK)
     return figure
 
 
@@ -58,6 +61,7 @@ def _plane(axes: Axes, history: History, points: Array, motion: Array) -> tuple[
     """Meshes of the plane at both places; the points and their motion in the picture."""
     from matplotlib.collections import PolyCollection
 
+    motion = oblique(motion)
     for where, colour, alpha in ((points, PRESSURE, 0.35), (points + motion, TRACTION, 0.8)):
         for family, cells in history.model.mesh.cells.items():
             corners = cells[:, : 3 if family.startswith("triangle") else 4]

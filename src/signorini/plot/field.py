@@ -51,10 +51,11 @@ def _draw_field(data: PictureData, scalar: Scalar) -> Figure:
     from matplotlib.tri import Triangulation
 
     grid = data.bodies
-    window = _window(data, grid.points + grid.displacement)
+    displacement = grid.displacement[:, : grid.points.shape[1]]  # what goes around the axis leaves the picture as it is
+    window = _window(data, grid.points + displacement)
     shown = grid.points if window is None else np.array(window)
-    factor = drawn_factor(float(np.ptp(shown, axis=0).max()), grid.displacement)
-    moved = grid.points + factor * grid.displacement
+    factor = drawn_factor(float(np.ptp(shown, axis=0).max()), displacement)
+    moved = grid.points + factor * displacement
     inside = _inside(window, moved)
     top, largest = float(scalar.values[inside].max()), float(scalar.values.max())
     levels = np.linspace(0.0, max(top, 1e-300), 25)

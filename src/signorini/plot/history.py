@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray, padded
 from signorini.plot.curve import Curve, closed_range
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import INK, PRESSURE, STATUS_INK, TRACTION, dress, entitle, label
+from signorini.plot.style import HOOP, INK, PRESSURE, STATUS_INK, TRACTION, dress, entitle, label
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK
 
@@ -44,7 +44,7 @@ def draw_history(data: PictureData) -> Figure:
             curves = [step[i] for step in ends]
             _profiles(panels[i, 0], curves, "pressure")
             _profiles(panels[i, 1], curves, "traction")
-        _resultants(panels[i, 2], forces, data.solid)
+        _resultants(panels[i, 2], forces, data)
         for axes in panels[i] if data.solid else panels[i, 2:]:
             axes.set_xlim(0.0, len(steps) * 1.02)
             _steps_below(axes, steps)
@@ -66,7 +66,7 @@ class ContactForces:
     Attributes
     ----------
     load : load factor
-    normal, friction : (m, 3) forces on the nonmortar body
+    normal, friction : (m, 3) forces on the nonmortar body, with twist the third the torque over the largest radius
     largest : pressure
     counts : (3, m) nodes that are open, stick and slip
     dissipation : since the beginning
@@ -90,6 +90,7 @@ def contact_forces(history: History, i: int) -> ContactForces:
     counts = np.array([[contact.count(status) for status in (OPEN, STICK, SLIP)] for contact in contacts], float)
     ends = np.cumsum([len(step.instants) for step in history.steps]) - 1
     unloaded = load[0] > 0.0 and not history.loaded
+    radius = float(contacts[0].points[:, 0].max()) if history.model.twists else 1.0
 
     def course(values: Array, first: Array | float = 0.0) -> Array:
         return np.concatenate([np.full_like(values[:1], first), values]) if unloaded else values
@@ -97,7 +98,7 @@ def contact_forces(history: History, i: int) -> ContactForces:
     return ContactForces(
         load=course(load),
         normal=course(padded(np.array([contact.normal_force for contact in contacts]), 3)),
-        friction=course(padded(np.array([contact.tangential_force for contact in contacts]), 3)),
+        friction=course(padded(np.array([contact.tangential_force for contact in contacts]), 3) / [1.0, 1.0, radius]),
         largest=course(np.array([contact.pressure.max(initial=0.0) for contact in contacts])),
         counts=course(counts, np.array([counts[0].sum(), 0.0, 0.0])).T,
         dissipation=course(_since_the_beginning(np.array([contact.dissipation for contact in contacts]), ends)),
@@ -127,16 +128,20 @@ def _profiles(axes: Axes, curves: list[Curve], what: str) -> None:
     colours = colormaps["viridis"](np.linspace(0.0, 0.85, len(curves)))
     for number, (curve, colour) in enumerate(zip(curves, colours, strict=True), start=1):
         axes.plot(curve.s, getattr(curve, what), "o-", ms=3, lw=1.5, color=colour, label=f"{number} {curve.step}")
+        if what == "traction" and curve.hoop is not None:
+            axes.plot(curve.s, curve.hoop, "^--", ms=3, lw=1.2, color=colour)
     ranges = np.array([closed_range(curve) for curve in curves])
     if len(curves[0].s) > 1:
         axes.set_xlim(ranges[:, 0].min(), ranges[:, 1].max())
     words = "pressure" if what == "pressure" else "friction along the tangent"
+    if what == "traction" and curves[0].hoop is not None:
+        words = "friction, around the axis dashed"
     dress(axes, x=curves[0].place, y=f"{words}, force per area")
 
 
-def _resultants(axes: Axes, forces: ContactForces, solid: bool) -> None:
-    """Normal force, friction force with its sign, and dissipation, at every instant."""
-    along, words = friction_direction(forces, solid)
+def _resultants(axes: Axes, forces: ContactForces, data: PictureData) -> None:
+    """Normal force, friction force with its sign, torque over the radius, and dissipation, at every instant."""
+    along, words = friction_direction(forces, data.solid)
     for values, colour, mark, said in (
         (np.linalg.norm(forces.normal, axis=1), PRESSURE, "o", "normal force"),
         (forces.friction @ along, TRACTION, "s", f"friction force, {words}"),
@@ -145,7 +150,9 @@ def _resultants(axes: Axes, forces: ContactForces, solid: bool) -> None:
         axes.plot(forces.load[forces.ends], values[forces.ends], mark, color=colour, ms=5)
         axes.plot([], [], f"{mark}-", color=colour, label=said)
     across = np.linalg.norm(forces.friction - np.outer(forces.friction @ along, along), axis=1)
-    if across.max() > _MIN_SHARE * np.abs(forces.friction).max():
+    if data.model.twists:
+        axes.plot(forces.load, forces.friction[:, 2], "--", color=HOOP, lw=1.5, label="torque over the largest radius")
+    elif across.max() > _MIN_SHARE * np.abs(forces.friction).max():
         axes.plot(forces.load, across, ":", color=TRACTION, lw=1.5, label="friction force across that")
     dress(axes, y="force on the nonmortar body")
     handles, labels = axes.get_legend_handles_labels()

@@ -12,6 +12,7 @@ from signorini.arrays import Array
 from signorini.model.model import Model
 from signorini.plot.camera import best_view
 from signorini.plot.field import BODIES
+from signorini.plot.oblique import AROUND, oblique
 from signorini.plot.paint import body_paint, paint_skin
 from signorini.plot.picture_data import CELL_OUTLINES
 from signorini.plot.skin import Skin, make_skin
@@ -46,7 +47,8 @@ def draw_modes(model: Model, modes: Mapping[str, NaturalModes]) -> Figure:
             axes.set_axis_off()
             label(axes, title=f"{joint}, {own.frequencies[k]:.5g}" if len(modes) > 1 else f"{own.frequencies[k]:.5g}")
             canvas.draw(axes, own.shapes[k])
-    entitle(figure, model.title, "natural modes, cycles per time; displacements are not to scale")
+    around = f"; {AROUND}" if model.twists else ""
+    entitle(figure, model.title, f"natural modes, cycles per time; displacements are not to scale{around}")
     return figure
 
 
@@ -67,7 +69,7 @@ class _Plane:
 
     def frame(self, shapes: Array) -> tuple[Array, Array]:
         """Corners of what shapes need."""
-        moved = np.concatenate([self.points + _reaching(shape, self.size) for shape in shapes])
+        moved = np.concatenate([self.points + _reaching(oblique(shape), self.size) for shape in shapes])
         edge = 0.02 * self.size
         return np.minimum(moved.min(axis=0), self.points.min(axis=0)) - edge, moved.max(axis=0) + edge
 
@@ -75,7 +77,7 @@ class _Plane:
         """Draw a shape over the bodies at rest."""
         from matplotlib.collections import PolyCollection
 
-        moved = self.points + _reaching(shape, self.size)
+        moved = self.points + _reaching(oblique(shape), self.size)
         for cells, body in zip(self.outlines, self.body, strict=True):
             faces = [BODIES[i % len(BODIES)] for i in body]
             axes.add_collection(

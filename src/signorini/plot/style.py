@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PRESSURE, TRACTION, BOUND = "#1b4f8a", "#c4451c", "#c4451c"
+HOOP = "#2a7f62"
 INK = "#333333"
 PLAIN = "closed, without friction"
 """Words for "slip" where there is no friction."""

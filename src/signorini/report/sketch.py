@@ -13,7 +13,7 @@ from signorini.model.model import Model
 from signorini.plot.camera import best_view
 from signorini.plot.curve import surface_coordinate
 from signorini.plot.skin import make_skin
-from signorini.plot.style import PRESSURE, TRACTION
+from signorini.plot.style import HOOP, PRESSURE, TRACTION
 from signorini.report.markup import said
 from signorini.solution.results import ContactResult
 
@@ -48,7 +48,9 @@ def sketch_contact(contact: ContactResult, width: int = 260) -> str:
         return ""
     axis, s = surface_coordinate(contact.points[own])
     order = np.argsort(s, kind="stable")
-    lines = [(contact.pressure[own][order], PRESSURE, "pressure"), (contact.traction[own][order], TRACTION, "friction")]
+    lines = [(contact.pressure[own][order], PRESSURE, "pressure")]
+    for i, friction in enumerate(contact.traction[own][order].reshape(len(order), -1).T):
+        lines.append((friction, (TRACTION, HOOP)[i], ("friction", "friction around the axis")[i]))
     lines = [line for line in lines if line[0].any()]
     values = np.concatenate([[0.0], *(line[0] for line in lines)])
     low, high, height = values.min(), values.max(), 0.45 * width
