@@ -10,7 +10,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.plot.camera import best_view
-from signorini.plot.oblique import AROUND, oblique
+from signorini.plot.oblique import HOOP_WORDS, oblique
 from signorini.plot.paint import body_paint, paint_skin
 from signorini.plot.skin import make_skin
 from signorini.plot.style import INK, PRESSURE, TRACTION, frame
@@ -51,7 +51,7 @@ def plot_escape(history: History) -> Figure:
     axes.quiver(
         *flat[chosen].T, *along[chosen].T, angles="xy", scale_units="xy", scale=1.0, color=INK, width=0.004, zorder=4
     )
-    around = f"\n{AROUND}" if history.model.twists else ""
+    around = f"\n{HOOP_WORDS}" if history.model.twists else ""
     title = f"no equilibrium: the loads carry the bodies away{around}"
     axes.set_title(title, loc="left", fontsize=11, color=INK)
     return figure

@@ -12,7 +12,7 @@ from signorini.arrays import Array
 from signorini.model.model import Model
 from signorini.plot.camera import best_view
 from signorini.plot.field import BODIES
-from signorini.plot.oblique import AROUND, oblique
+from signorini.plot.oblique import HOOP_WORDS, oblique
 from signorini.plot.paint import body_paint, paint_skin
 from signorini.plot.picture_data import CELL_OUTLINES
 from signorini.plot.skin import Skin, make_skin
@@ -47,7 +47,7 @@ def draw_modes(model: Model, modes: Mapping[str, NaturalModes]) -> Figure:
             axes.set_axis_off()
             label(axes, title=f"{joint}, {own.frequencies[k]:.5g}" if len(modes) > 1 else f"{own.frequencies[k]:.5g}")
             canvas.draw(axes, own.shapes[k])
-    around = f"; {AROUND}" if model.twists else ""
+    around = f"; {HOOP_WORDS}" if model.twists else ""
     entitle(figure, model.title, f"natural modes, cycles per time; displacements are not to scale{around}")
     return figure
 

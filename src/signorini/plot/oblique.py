@@ -7,8 +7,8 @@ import numpy as np
 
 from signorini.arrays import Array
 
-AROUND = "around the axis: up and to the right"
-"""Says in a title where `oblique` draws what goes round."""
+HOOP_WORDS = "around the axis: up and to the right"
+"""For titles: where `oblique` draws what goes round."""
 
 _AWAY = np.array([0.7, 0.5])  # where the third axis points in the picture, as in a cabinet drawing
 
