@@ -49,7 +49,10 @@ def test_every_public_name_is_there() -> None:
         sg.nothing_of_ours  # noqa: B018
 
 
-def test_run_prints_forces_and_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_run_prints_forces_and_files(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("signorini.cli.progress.LINE_PERIOD", 1e6)  # compiling may take longer than one
     assert main(["run", CYLINDER, "-o", str(tmp_path)]) == 0
     said = capsys.readouterr()
     assert "(0, 78)" in said.out

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a terminal shows while something is solved."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -25,3 +26,30 @@ def test_the_first_solve_says_once_that_it_compiles(known, monkeypatch, capsys, 
 def test_a_factorisation_leaves_compiled_loops_behind():
     factorise(sp.csr_array(np.eye(3)), np.empty(0, int), nodes=np.arange(3), points=np.eye(3), backend="multifrontal")
     assert compiled()
+
+
+def test_a_pipe_is_told_every_few_seconds_what_is_done(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr("signorini.cli.progress.LINE_PERIOD", 0.001)
+    assert main(["run", str(DECK), "-o", str(tmp_path / "out")]) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) > 3
+    assert all(re.fullmatch(r"signorini: \d+ s, +\d+%: .+", line) for line in lines)
+    assert main(["run", str(DECK), "-o", str(tmp_path / "out"), "--quiet"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_a_log_says_what_was_done_and_how_it_ended(capsys, tmp_path):
+    log = tmp_path / "run.log"
+    assert main(["run", str(DECK), "-o", str(tmp_path / "out"), "--quiet", "--log", str(log)]) == 0
+    first, *lines = log.read_text().splitlines()
+    assert first.endswith(f"run {DECK}")
+    assert all(re.match(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d +[\d.]+ s  ", line) for line in lines)
+    kinds = [line.split("%  ")[1] for line in lines]
+    assert kinds.index("read") < kinds.index("assembly") < kinds.index("factorisation") < kinds.index("output")
+    assert kinds[-1] == "solved"
+    (tmp_path / "wrong.toml").write_text("kind = 3\n")
+    assert main(["run", str(tmp_path / "wrong.toml"), "--quiet", "--log", str(log)]) == 2
+    assert "there is no mesh" in log.read_text()
+    capsys.readouterr()
+    assert main(["run", str(DECK), "--log", str(tmp_path / "no" / "run.log")]) == 2
+    assert "--log: cannot write" in capsys.readouterr().err

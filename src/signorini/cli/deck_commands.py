@@ -8,7 +8,8 @@ import json
 import time
 from pathlib import Path
 
-from signorini.cli.progress import progress
+from signorini._version import __version__
+from signorini.cli.progress import open_log, progress
 from signorini.deck import Deck, load_deck
 from signorini.errors import InputError
 
@@ -18,22 +19,24 @@ _DRAWN = "asks for natural modes of bodies as they are drawn"  # which may be fr
 def run(options: argparse.Namespace) -> int:
     """Read, solve, write, print; 0 if solved and certified, 3 if not."""
     started = time.perf_counter()
-    with progress(quiet=options.quiet) as clock, clock.phase("read"):
+    log = open_log(options.log, f"signorini {__version__} run {options.deck}")
+    with progress(quiet=options.quiet or options.json, log=log) as clock, clock.phase("read"):
         deck = _load(options)
     if deck.modes is not None and not deck.modes.preload:
         raise InputError(f"'{deck.path}' {_DRAWN}: use 'signorini modes'")
     from signorini.cli.run_deck import run_deck
 
-    return run_deck(deck, options, clock, started)
+    return run_deck(deck, options, clock, started, log)
 
 
 def modes(options: argparse.Namespace) -> int:
     """Read, solve the steps, find natural modes, write, print; 0 if certified, 3 if not."""
     started = time.perf_counter()
+    log = open_log(options.log, f"signorini {__version__} modes {options.deck}")
     deck = _load(options)
     from signorini.cli.run_modes import run_modes
 
-    with progress(quiet=options.quiet) as clock:
+    with progress(quiet=options.quiet, log=log) as clock:
         return run_modes(deck, options, clock, started)
 
 

@@ -105,6 +105,7 @@ def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
     run.add_argument(
         "--from", dest="start", metavar="DIR", help="go on from the end of a run: its result folder, or its state.npz"
     )
+    run.add_argument("--log", metavar="FILE", help="write what is done, with its time, into a file")
     run.add_argument("--quiet", action="store_true", help="print nothing but errors")
     run.add_argument("--json", action="store_true", help="print the summary as JSON instead of tables")
     run.add_argument(
@@ -125,4 +126,5 @@ def _add_modes(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> Non
         "--amplitudes", type=float, nargs="+", metavar="A", help="of the loops: the largest displacement, ascending"
     )
     modes.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the deck's name)")
+    modes.add_argument("--log", metavar="FILE", help="write what is done, with its time, into a file")
     modes.add_argument("--quiet", action="store_true", help="print nothing but errors")

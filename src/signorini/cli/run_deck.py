@@ -30,7 +30,7 @@ from signorini.solution.history import History
 
 
 @one_thread()
-def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: float) -> int:
+def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: float, log: Path | None = None) -> int:
     """Solve, write, print.
 
     Parameters
@@ -39,6 +39,7 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     options : ``folder``, ``start``, ``backend``, ``wellposed`` and ``quiet`` of the command line
     clock : with the seconds of reading
     started : ``time.perf_counter()`` at the beginning of the command
+    log : file to which lines on what is done are added; None: none
 
     Returns
     -------
@@ -51,10 +52,11 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     path = Path(options.folder) if options.folder else Path("out", deck.path.stem)
     note = "" if compiled() else "first solve on this machine: compiling takes half a minute, once"
     with own_folder(path, deck.path.name) as folder:
-        with progress(quiet=options.quiet or options.json, seconds=clock.seconds, note=note) as clock:
+        with progress(quiet=options.quiet or options.json, seconds=clock.seconds, note=note, log=log) as clock:
             publisher = Publisher(folder=folder, clock=clock, started=started, deck=deck.path.name, prints=deck.prints)
             history = _solve(deck, options, clock, start, _kept(publisher))
             files = publisher.publish(history)
+            clock.says(f"{history.status}: {history.message}" if history.message else str(history.status))
         return _told(deck, options, history, files, folder, started)
 
 
