@@ -212,3 +212,44 @@ def test_decks_of_keywords_take_the_tables_of_another_file(tmp_path, capsys):
     asked.write_text("title = 'none'\n")
     assert main(["check", str(deck), "--fatigue", str(asked)]) == 2
     assert "fatigue: there is none; expected [[fatigue]] tables" in capsys.readouterr().err
+
+
+def test_results_are_asked_without_solving_again(folder, capsys, monkeypatch):
+    """What `run` writes that asks for the same; two of them are compared."""
+    asked, again = folder.parent / "asked.toml", folder.parent / "again"
+    asked.write_text(BAR[BAR.index("[[fatigue]]") :])
+    monkeypatch.setattr("signorini.engine.solve.solve", None)
+    assert main(["fatigue", str(folder), str(asked), "-o", str(again)]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "fatigue, SWT over cycles, line at distance 0.1: at most 0.45 in 'block' at node" in told
+    assert (again / "fatigue.csv").read_bytes() == (folder / "fatigue.csv").read_bytes()
+    assert (
+        json.loads((again / "summary.json").read_text())["fatigue"]
+        == json.loads((folder / "summary.json").read_text())["fatigue"]
+    )
+    assert main(["diff", str(folder), str(again)]) == 0
+    asked.write_text(asked.read_text().replace("bending_limit = 300.0", "bending_limit = 310.0"))
+    assert main(["fatigue", str(folder / "solution.h5"), str(asked), "-o", str(again), "--quiet"]) == 0
+    capsys.readouterr()
+    assert main(["diff", str(folder), str(again)]) == 1
+    apart = capsys.readouterr().out.splitlines()[1:]
+    assert len(apart) == 1
+    assert apart[0].split()[:5] == ["cycles", "fatigue", "2", "Crossland:", "parameter"]
+    asked.write_text(asked.read_text().replace("Crossland", "Dang Van"))
+    assert main(["fatigue", str(folder), str(asked), "-o", str(again), "--quiet"]) == 0
+    assert main(["diff", str(folder), str(again)]) == 1
+    assert "fatigue criterion 2: Crossland and Dang Van" in capsys.readouterr().out
+
+
+def test_what_cannot_be_asked_of_results_is_told_with_its_line(folder, capsys):
+    asked = folder.parent / "wrong.toml"
+    for text, said in (
+        ('[[fatigue]]\ncriterion = "SWT"\nwhere = "tip"\n', ":3: fatigue[0].where: unknown contact, boundary"),
+        ('[[fatigue]]\ncriterion = "SWT"\nwhere = "top"\ndistance = 9.0\n', ":4: fatigue[0].distance: leaves the body"),
+        ('title = "none"\n', ": fatigue: there is none; expected [[fatigue]] tables"),
+    ):
+        asked.write_text(text)
+        assert main(["fatigue", str(folder), str(asked), "-o", str(folder.parent / "wrong")]) == 2
+        assert said in capsys.readouterr().err
+    assert main(["fatigue", str(folder.parent), str(asked)]) == 2
+    assert "has no 'summary.json'" in capsys.readouterr().err

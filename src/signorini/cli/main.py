@@ -22,6 +22,7 @@ _MEMORY_ADVICE = "expected a coarser mesh, --backend iterative, or more memory"
 _COMMANDS = {
     "signorini.cli.deck_commands": ("run", "modes", "check", "convert"),
     "signorini.cli.result_commands": ("diff", "plot", "report"),
+    "signorini.cli.fatigue_command": ("fatigue",),
     "signorini.cli.suite_commands": ("verify", "bench"),
 }
 

@@ -53,6 +53,8 @@ def make_parser() -> argparse.ArgumentParser:
     diff.add_argument("second", metavar="B", help="the other")
     diff.add_argument("--tolerance", type=float, default=1e-6, metavar="X", help="of every quantity's size")
 
+    _add_fatigue(commands, [shared])
+
     plot = commands.add_parser("plot", parents=[shared], help="draw the results in a folder")
     plot.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
     plot.add_argument(
@@ -66,15 +68,7 @@ def make_parser() -> argparse.ArgumentParser:
     report.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
     report.add_argument("-o", dest="file", metavar="FILE", help="HTML file (default: report.html in DIR)")
 
-    verify = commands.add_parser("verify", parents=[shared], help="compare with known answers")
-    verify.add_argument("--all", action="store_true", help="the slow cases too")
-    verify.add_argument("--json", metavar="FILE", help="write the table as JSON")
-
-    bench = commands.add_parser("bench", parents=[shared], help="time contact against one linear solve")
-    bench.add_argument("names", nargs="*", metavar="NAME", help="problems (default: all)")
-    bench.add_argument("--dofs", type=int, metavar="N", help="size of the problems")
-    bench.add_argument("--sample", type=int, metavar="N", help="of the hard set so many problems, spread over it")
-    bench.add_argument("--json", metavar="FILE", help="write the table as JSON")
+    _add_suites(commands, [shared])
     return parser
 
 
@@ -128,3 +122,23 @@ def _add_modes(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> Non
     modes.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the deck's name)")
     modes.add_argument("--log", metavar="FILE", help="write what is done, with its time, into a file")
     modes.add_argument("--quiet", action="store_true", help="print nothing but errors")
+
+
+def _add_fatigue(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
+    fatigue = commands.add_parser("fatigue", parents=parents, help="ask results for fatigue criteria, solving nothing")
+    fatigue.add_argument("results", metavar="DIR", help="a folder that 'run' has written, or its archive (.h5)")
+    fatigue.add_argument("asked", metavar="FILE", help="a TOML file with [[fatigue]] tables")
+    fatigue.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the file's name)")
+    fatigue.add_argument("--quiet", action="store_true", help="print nothing but errors")
+
+
+def _add_suites(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
+    verify = commands.add_parser("verify", parents=parents, help="compare with known answers")
+    verify.add_argument("--all", action="store_true", help="the slow cases too")
+    verify.add_argument("--json", metavar="FILE", help="write the table as JSON")
+
+    bench = commands.add_parser("bench", parents=parents, help="time contact against one linear solve")
+    bench.add_argument("names", nargs="*", metavar="NAME", help="problems (default: all)")
+    bench.add_argument("--dofs", type=int, metavar="N", help="size of the problems")
+    bench.add_argument("--sample", type=int, metavar="N", help="of the hard set so many problems, spread over it")
+    bench.add_argument("--json", metavar="FILE", help="write the table as JSON")

@@ -14,6 +14,7 @@ from signorini.deck.syntax import parse
 from signorini.errors import InputError, Where
 from signorini.fatigue.criteria import CRITERIA
 from signorini.model.fatigue import Fatigue
+from signorini.model.model import Model
 
 
 def deck_fatigue(entry: dict[str, Any], where: Where) -> Fatigue:
@@ -28,7 +29,12 @@ def deck_fatigue(entry: dict[str, Any], where: Where) -> Fatigue:
 
 
 def asking_for(deck: Deck, path: Path) -> Deck:
-    """A deck that asks for the tables ``[[fatigue]]`` of another file too; all else in that file is left alone.
+    """A deck that asks for the tables ``[[fatigue]]`` of another file, see :func:`model_asking_for`."""
+    return replace(deck, model=model_asking_for(deck.model, path))
+
+
+def model_asking_for(model: Model, path: Path) -> Model:
+    """A model that asks for the tables ``[[fatigue]]`` of a file; all else in that file is left alone.
 
     Raises
     ------
@@ -40,6 +46,6 @@ def asking_for(deck: Deck, path: Path) -> Deck:
         found = [deck_fatigue(entry, ("fatigue", i)) for i, entry in enumerate(tables(data, "fatigue"))]
         if not found:
             raise InputError("there is none; expected [[fatigue]] tables", where=("fatigue",))
-        return replace(deck, model=replace(deck.model, fatigue=found))
+        return replace(model, fatigue=found)
     except InputError as error:
         raise located_error(error, path, lines) from error

@@ -113,7 +113,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         _refuse_sliding(model)
     _refuse_unheld(examined, schedule)
     if model.fatigue:
-        refuse_requests(space, model, goes_on=start is not None and bool(start.state.forces.any()))
+        refuse_requests(space, model)
     return examined
 
 

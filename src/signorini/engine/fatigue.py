@@ -13,7 +13,7 @@ from signorini.engine.fatigue_places import moduli, named_places, request_places
 from signorini.engine.stress_history import Span, spans, stress_history
 from signorini.errors import InputError
 from signorini.fatigue.criteria import Ruiz, StrainLife
-from signorini.fatigue.damage import Damage, cycles_to_failure, damage, path_amplitudes
+from signorini.fatigue.damage import Damage, cycles_to_failure, damage, largest_product, path_amplitudes
 from signorini.fem.probe import StressProbe
 from signorini.fem.space import Space, make_space
 from signorini.model.fatigue import Fatigue
@@ -111,13 +111,18 @@ def _ruiz(history: History, request: Fatigue, along: StressHistory, tangents: Se
             moved = 0.0 if contacts is None else 1.0
             frictions.append(moved * np.concatenate([_rows(contact.traction) for contact in asked]))
             slips.append(moved * np.concatenate([_rows(contact.slip) for contact in asked]))
-    friction = np.linalg.norm(np.stack(frictions, axis=1), axis=2).max(axis=1)
-    work = friction * path_amplitudes(np.stack(slips, axis=1))
+    friction, slip = (np.stack(parts, axis=1) for parts in (frictions, slips))
+    size = friction[..., 0] if friction.shape[-1] == 1 else np.linalg.norm(friction, axis=2)
     stress = np.concatenate(
         [_along_surface(own, t) for own, t in zip(np.split(along.stress, _ends(tangents)), tangents, strict=True)]
     )
-    plane = np.full((len(work), 3), np.nan)
-    return Damage(parameter=work * np.maximum(stress, 0.0), amplitude=work, stress=stress, plane=plane)
+    reach = path_amplitudes(slip)
+    return Damage(
+        parameter=reach * largest_product(size, stress),
+        amplitude=reach * np.abs(size).max(axis=1),
+        stress=stress.max(axis=1),
+        plane=np.full((len(reach), 3), np.nan),
+    )
 
 
 def _contacts_of(span: Span) -> list[tuple[ContactResult, ...] | None]:
@@ -138,12 +143,12 @@ def _rows(values: Array) -> Array:
 
 
 def _along_surface(stress: Array, tangents: Array) -> Array:
-    """(n,) The largest normal stress along tangents of a surface over the history."""
+    """(n, m) The largest normal stress along tangents of a surface at every moment."""
     d = tangents.shape[-1]
     tensors = stress[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]][..., :d, :d]
     axes = tangents.reshape(len(tangents), -1, d)
     within = np.einsum("nai,ntij,nbj->ntab", axes, tensors, axes)
-    largest: Array = np.linalg.eigvalsh(within)[..., -1].max(axis=1)
+    largest: Array = np.linalg.eigvalsh(within)[..., -1]
     return largest
 
 

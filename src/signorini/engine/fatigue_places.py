@@ -192,13 +192,12 @@ def moduli(model: Model, criterion: StrainLife, body: IntArray) -> Array:
     return found[body]
 
 
-def refuse_requests(space: Space, model: Model, *, goes_on: bool) -> None:
+def refuse_requests(space: Space, model: Model) -> None:
     """Refuse criteria before anything is solved that could not be answered afterwards.
 
     Parameters
     ----------
     space, model : of the bodies
-    goes_on : whether the history goes on from another
 
     Raises
     ------
@@ -210,9 +209,6 @@ def refuse_requests(space: Space, model: Model, *, goes_on: bool) -> None:
             asked = [step for step in model.steps if step.name in request.steps] or [model.steps[-1]]
             if any(step.at != "events" for step in asked):
                 refuse_unrecoverable(model)
-            if goes_on and asked[0] is model.steps[0] and asked[0].repeat == 1:
-                words = "begins where another history ends; expected one behind it, or one that repeats"
-                raise InputError(f"'{asked[0].name}' {words}", where=("steps",))
             if not isinstance(request.criterion, Ruiz):
                 body = request_places(space, model, request).probe.body
                 if isinstance(request.criterion, StrainLife) and request.criterion.lives:

@@ -229,6 +229,20 @@ def contacts_of(prepared: Prepared, before: State, state: State) -> tuple[Contac
     )
 
 
+def instant_of(prepared: Prepared, state: State) -> Instant:
+    """A state that a history goes on from, with its displacements."""
+    return Instant(
+        load_factor=0.0,
+        what="start",
+        contacts=contacts_of(prepared, state, state),
+        work=0.0,
+        displacement=frozen(_displacement(prepared, state)),
+        factors=dict(state.point.factors),
+        plastic=_plastic(state, state, whole=True),
+        places=frozen(prepared.space.mesh.points) if prepared.meshed is not None else None,
+    )
+
+
 def _instants(
     prepared: Prepared, followed: FollowedPart, cycle_ends: Sequence[float], heat: Callable[[State], float]
 ) -> Iterator[Instant]:

@@ -17,7 +17,7 @@ from signorini.engine.increments import measured
 from signorini.engine.memory_check import refuse_fields
 from signorini.engine.moved_mesh import on_worn_mesh, with_geometry
 from signorini.engine.prepare import Prepared, prepare
-from signorini.engine.report import step_result
+from signorini.engine.report import instant_of, step_result
 from signorini.engine.sliding import follow_sliding
 from signorini.engine.step_parts import (
     FollowedPart,
@@ -45,7 +45,7 @@ from signorini.settings import SolverSettings
 from signorini.solution.certificate import TOLERANCE
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
-from signorini.solution.results import StepResult
+from signorini.solution.results import Instant, StepResult
 from signorini.solution.scale import Loading, data_scale
 from signorini.solution.state import LoadPoint, State, initial_state
 from signorini.solution.wear_state import unworn
@@ -196,7 +196,7 @@ def _follow(
     prepared.clock.expect(sum(_expected(stage) for stage in schedule))
     steps: list[StepResult] = []
     constraints = _constraints(prepared, standing.released)
-    end, loaded = begin, bool(state.forces.any())
+    end, first = begin, instant_of(prepared, state) if state.displacement.any() else None
     if tape is not None:
         tape.end = begin.state
     try:
@@ -229,7 +229,7 @@ def _follow(
                 prepared = followed.prepared.under(nominal, loading, prepared.absent)
             if after_step is not None and len(steps) < len(schedule):
                 words = f"{len(steps)} of {len(schedule)} steps are finished"
-                after_step(_history(prepared, Outcome.RUNNING, words, steps, end, loaded))
+                after_step(_history(prepared, Outcome.RUNNING, words, steps, end, first))
     except (SolveFailed, KeyboardInterrupt) as stop:
         status = Outcome.INTERRUPTED
         number = min(len(steps) + 1, len(schedule))
@@ -240,8 +240,8 @@ def _follow(
         part = reached(stop)
         if part is not None:
             steps.append(step_result(now, schedule[len(steps)], part, (), finished=False))
-        return replace(_history(prepared, status, words, steps, last, loaded), escape=_motion(stop))
-    history = _history(prepared, Outcome.SOLVED, "", steps, end, loaded)
+        return replace(_history(prepared, status, words, steps, last, first), escape=_motion(stop))
+    history = _history(prepared, Outcome.SOLVED, "", steps, end, first)
     return replace(history, wellposedness=assess(now, end.state)) if wellposed else history
 
 
@@ -329,7 +329,12 @@ def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[
 
 
 def _history(
-    prepared: Prepared, status: Outcome, message: str, steps: list[StepResult], end: Checkpoint | None, loaded: bool
+    prepared: Prepared,
+    status: Outcome,
+    message: str,
+    steps: list[StepResult],
+    end: Checkpoint | None,
+    begin: Instant | None,
 ) -> History:
     return History(
         model=(prepared.meshed or prepared).model,
@@ -340,5 +345,5 @@ def _history(
         timings=dict(prepared.clock.seconds),
         pairs=len(prepared.interface),
         end=end,
-        loaded=loaded,
+        begin=begin,
     )

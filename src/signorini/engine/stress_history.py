@@ -31,13 +31,14 @@ class Span:
     Attributes
     ----------
     step : that is looked at
-    before : the step whose end it begins with; None where it begins with bodies at rest, or within the step
+    before : the end of the step, or of the history, that it begins with; None where it begins with bodies at rest, or
+        within the step
     at_rest : whether it begins with bodies at rest
     moments : of the step, in order, the end last
     """
 
     step: StepResult
-    before: StepResult | None
+    before: StepResult | Instant | None
     at_rest: bool
     moments: tuple[Instant, ...]
 
@@ -53,7 +54,7 @@ def spans(history: History, steps: Sequence[str]) -> list[Span]:
     Raises
     ------
     InputError
-        For an unknown or unfinished step, and one that begins where another history ends.
+        For an unknown or unfinished step.
     """
     names = [step.name for step in history.steps]
     for name in steps:
@@ -70,12 +71,10 @@ def spans(history: History, steps: Sequence[str]) -> list[Span]:
             own = tuple(instant for instant in step.instants if instant.load_factor >= begin)
             found.append(Span(step=step, before=None, at_rest=False, moments=own))
             continue
-        if index == 0 and history.loaded:
-            words = f"'{step.name}' begins where another history ends; expected one behind it, or one that repeats"
-            raise InputError(words, where=("steps",))
-        before = history.steps[index - 1] if index else None
+        before = history.steps[index - 1] if index else history.begin
         joins = bool(found) and found[-1].step is before
-        found.append(Span(step=step, before=None if joins else before, at_rest=not index, moments=tuple(step.instants)))
+        rest = before is None
+        found.append(Span(step=step, before=None if joins else before, at_rest=rest, moments=tuple(step.instants)))
     return found
 
 
@@ -122,7 +121,7 @@ def _along(
     if span.at_rest:
         nothing = np.zeros((len(probe.body), 6))
         yield 0.0, (nothing, nothing if probe.slopes is not None else nothing[:0], nothing)
-    if span.before is not None:
+    if span.before is not None and span.before.displacement is not None:
         yield span.before.load_factor, _in_state(probe, span.before, span.before.displacement)
     missing = [moment for moment in span.moments[:-1] if moment.displacement is None]
     found = recovery().displacements(span.step, missing) if missing else iter(())

@@ -199,7 +199,7 @@ class DangVan(FatigueLimits):
 
 @dataclass(frozen=True, kw_only=True)
 class Ruiz(FatigueCriterion):
-    """Ruiz on contacts: ``F1 = q_max delta`` and ``F2 = sigma_T,max F1``, which is the parameter.
+    """Ruiz on contacts: ``F1 = q_max delta`` and ``F2 = delta max over time of (sigma_T q)``, which is the parameter.
 
     q is the friction (force per area), delta the amplitude of the slip (length; half its range, in space the radius of
     the smallest circle around its path), sigma_T the largest normal stress along the surface, 0 where it is pressed.

@@ -111,6 +111,27 @@ def path_amplitudes(paths: Array) -> Array:
     return smallest_balls(np.ascontiguousarray(paths))[1]
 
 
+def largest_product(friction: Array, stress: Array) -> Array:
+    """(n,) The largest ``|q| max(sigma, 0)`` over histories (n, t) of both that are linear between the times.
+
+    Between two times the product is a parabola, whose vertex may be higher than both ends.
+
+    Examples
+    --------
+    Friction that comes while the stress goes:
+
+    >>> largest_product(np.array([[0.0, 2.0]]), np.array([[4.0, 0.0]])).tolist()
+    [2.0]
+    """
+    found: Array = (np.abs(friction) * np.maximum(stress, 0.0)).max(axis=1)
+    (q, s), (dq, ds) = ([each[:, :-1] for each in (friction, stress)], [np.diff(each) for each in (friction, stress)])
+    with np.errstate(divide="ignore", invalid="ignore"):  # no vertex where one of both stays
+        at = -(q * ds + s * dq) / (2.0 * dq * ds)
+    at = np.clip(np.nan_to_num(at, nan=0.0, posinf=0.0, neginf=0.0), 0.0, 1.0)
+    between = np.abs(q + at * dq) * np.maximum(s + at * ds, 0.0)
+    return np.maximum(found, between.max(axis=1, initial=0.0))
+
+
 def cycles_to_failure(criterion: StrainLife, parameter: Array, modulus: Array) -> Array:
     """(n,) Lives in cycles by the constants of a criterion; infinite where the parameter is 0.
 

@@ -21,7 +21,7 @@ from signorini.solution.history import History
 if TYPE_CHECKING:
     import h5py
 
-_FORMAT, _OLDER = "signorini archive 6", ("signorini archive 5", "signorini archive 4")
+_FORMAT, _OLDER = "signorini archive 7", ("signorini archive 6", "signorini archive 5", "signorini archive 4")
 _STRUCTURE, _END = "structure", "end"  # the text, and what is another one after every step
 _SEAL_SIZE = 512  # bytes: the smallest user block that HDF5 has
 _MIN_COMPRESSED = 65536  # bytes: smaller arrays are not worth compressing

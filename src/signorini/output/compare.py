@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import IntArray
+from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult, PlasticResult, StepResult
 
@@ -27,7 +28,7 @@ class Difference:
     ----------
     step : name of the step
     quantity : as ``"displacement"`` or ``"arc: pressure"``
-    kind : what it is compared with: "length", "force", "stress", "strain" or "energy"
+    kind : what it is compared with: "length", "force", "stress", "strain" or "energy"; of fatigue itself
     largest : largest absolute difference
     size : largest absolute value of its kind in the step, gaps not counted
     where : the node with the largest difference, None for what has no nodes
@@ -72,7 +73,40 @@ def compare(first: History, second: History) -> tuple[list[Difference], list[str
             if not d.quantity.endswith("gap"):  # a gap that is wide says nothing of the size of motions
                 sizes[d.kind] = max(sizes.get(d.kind, 0.0), d.size)
         differences += [replace(d, size=sizes[d.kind]) for d in found]
+    count = len(first.fatigue_results), len(second.fatigue_results)
+    if count[0] != count[1]:
+        words.append(f"fatigue criteria: {count[0]} and {count[1]}")
+    for number, (one, two) in enumerate(zip(first.fatigue_results, second.fatigue_results, strict=False), start=1):
+        if one.name != two.name:
+            words.append(f"fatigue criterion {number}: {one.name} and {two.name}")
+        else:
+            differences += _fatigue(number, one, two, labels)
     return differences, list(dict.fromkeys(words))
+
+
+def _fatigue(number: int, mine: FatigueResult, theirs: FatigueResult, labels: _Labels) -> Iterator[Difference]:
+    """Between what a criterion says at places that both have, by body and node: each quantity by its own size."""
+    places = []
+    for result, own in zip((mine, theirs), labels, strict=True):
+        places.append(
+            {(body, own[node]): k for k, (body, node) in enumerate(zip(result.body, result.node, strict=True))}
+        )
+    common = [place for place in places[0] if place in places[1]]
+    i, j = (np.array([own[place] for place in common], int) for own in places)
+    for key in ["parameter", "amplitude", "stress", *(["life"] if mine.lives and theirs.lives else [])]:
+        one, two = getattr(mine, key)[i], getattr(theirs, key)[j]
+        other = one != two  # lives without end are alike
+        apart = np.zeros(len(one))
+        apart[other] = np.abs(one[other] - two[other])
+        known = np.abs(np.concatenate([one, two]))
+        yield Difference(
+            step=mine.steps[-1],
+            quantity=f"fatigue {number} {mine.name}: {key}",
+            kind=f"fatigue {key}",
+            largest=float(apart.max()) if common else np.inf,
+            size=float(known[np.isfinite(known)].max(initial=0.0)),
+            where=int(common[int(apart.argmax())][1]) if common else None,
+        )
 
 
 def _alone(mine: StepResult, theirs: StepResult) -> Iterator[str]:

@@ -39,8 +39,7 @@ def history_table(history: History, *, failure: bool = True) -> str:
     ]
     for number, step in enumerate(history.steps, start=1):
         lines += ["", *_step_lines(step, number)]
-    for result in history.fatigue_results:
-        lines += ["", *textwrap.wrap(_fatigue_line(result, mesh.labels), 112, subsequent_indent="    ")]
+    lines += fatigue_lines(history)
     for note in dict.fromkeys(note for step in history.steps for note in step.notes):
         lines += ["", *textwrap.wrap(f"{_whose(note, history.steps)}: {note}", 112)]
     if history.wellposedness is not None:
@@ -129,6 +128,14 @@ def _wear_lines(step: StepResult) -> Iterator[str]:
             f"worn: {contact.name}: {contact.nonmortar} by up to {depth:.5g}, volume {volume:.5g}; {contact.mortar} by "
             f"up to {mortar_depth:.5g}, volume {mortar_volume:.5g}"
         )
+
+
+def fatigue_lines(history: History) -> list[str]:
+    """The worst places of all fatigue criteria, an empty line before each."""
+    labels, lines = history.model.mesh.labels, []
+    for result in history.fatigue_results:
+        lines += ["", *textwrap.wrap(_fatigue_line(result, labels), 112, subsequent_indent="    ")]
+    return lines
 
 
 def _fatigue_line(result: FatigueResult, labels: IntArray) -> str:

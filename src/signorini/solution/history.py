@@ -13,7 +13,7 @@ from signorini.outcome import Outcome
 from signorini.short import Short
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.fatigue_result import FatigueResult
-from signorini.solution.results import ContactResult, StepResult
+from signorini.solution.results import ContactResult, Instant, StepResult
 from signorini.solution.wellposedness import WellPosedness
 
 PHASES = ("read", "assembly", "factorisation", "condensation", "complementarity", "recovery", "output", "total")
@@ -34,7 +34,7 @@ class History(Short):
     pairs : contact pairs
     end : the state at the end of the last finished step, from which another history may go on; None before the first
     wellposedness : whether other solutions exist, where that was asked
-    loaded : whether it goes on from another whose end pressed on contacts
+    begin : the end of the history that it goes on from; None where it begins with bodies at rest
     fatigue_results : of the criteria that the model asks for, where every step was solved
     escape : (nodes, d) rigid motion along which bodies run away where that was found, largest entry 1; otherwise None
     """
@@ -48,7 +48,7 @@ class History(Short):
     pairs: int
     end: Checkpoint | None = None
     wellposedness: WellPosedness | None = None
-    loaded: bool = False
+    begin: Instant | None = None
     fatigue_results: tuple[FatigueResult, ...] = ()
     escape: Array | None = None
 
@@ -60,6 +60,12 @@ class History(Short):
     def solved(self) -> bool:
         """Whether every step was solved and certified."""
         return self.status == Outcome.SOLVED
+
+    @property
+    def loaded(self) -> bool:
+        """Whether it goes on from another whose end pressed on contacts."""
+        contacts = () if self.begin is None else self.begin.contacts
+        return any(bool(contact.pressure.any() or contact.traction.any()) for contact in contacts)
 
     @property
     def last(self) -> StepResult:
