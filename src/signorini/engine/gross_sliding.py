@@ -40,29 +40,6 @@ class Gone:
     pivots: int
     residual: float
 
-    def booked(self, link: Link, begin: StridePairs, opened: Array, pressing: Array) -> Gone:
-        """With the work of the change of pairs.
-
-        Parameters
-        ----------
-        link, begin : from the last stride, and its pairs
-        opened, pressing : as of `Link.booked`
-        """
-        taken, freed = link.booked(begin, self.pairs, opened, pressing)
-        track, p = link.next, begin.r[0]
-        f = track.friction
-        pressed = np.divide(taken, f, out=np.zeros_like(taken), where=f > 0.0)
-        slid = np.divide(pressed, p, out=np.zeros_like(taken), where=p > 0.0)
-        return replace(
-            self,
-            pairs=replace(self.pairs, dissipation=self.pairs.dissipation + taken),
-            rubs=self.rubs + track.wearing(pressed, taken),
-            distance=self.distance + slid,
-            travel=self.travel + slid,
-            spent=self.spent + float(taken.sum()),
-            freed=self.freed + freed,
-        )
-
     def and_then(self, other: Gone) -> Gone:
         """One after the other."""
         return Gone(
@@ -174,7 +151,9 @@ class _Slip:
             p, h = new_p, new_h
             if times[k] >= 1.0:
                 ended = self.ended(gone, closed, p, h, ways)
-                return None if ended is None else ended.booked(self.link, self.now, self.opened, pressing)
+                if ended is None:
+                    return None
+                return replace(ended, freed=self.link.freed(self.now, ended.pairs, self.opened, pressing))
             closed = np.setdiff1d(closed, [k]) if touches[k] else np.union1d(closed, [k])
             if not len(closed):
                 return None

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sides hand over to other pairs: what a state is to them, and the work of what fades away as they take over.
 
-At the end of a stride forces f of the pairs are in equilibrium through B, what is opposite what; the next stride has
-the pairs B' of its own end. What equilibrium would miss at once, ``(B - B')^T f``, is a load that goes to zero linearly
-in that stride, and gaps go linearly from what they are to those of the bodies at its end. So nothing jumps, and
-pressures work through the change of the gap by the trapezoidal rule: with u the motion and g the gap in a stride
+In a stride pairs have the mean B* of those at both its ends, through which gaps change by as much as they do, see
+`interface.mean_pairs`: so forces of pairs that stay closed do no work, whatever they are. What bodies feel must not
+jump between two strides: what equilibrium would miss with the pairs of the next, ``(B*_last - B*)^T f`` and what has
+grown before, is a load that goes to zero linearly in it, and ``(B' - B*)^T f``, what its end lacks, one that grows.
+With f the forces at its beginning these do work by
 
-    p . (B + B') u / 2  =  p . dg  +  O(stride^3),
+    - (B' - B)^T f u / 2  +  (B' - B)^T f u / 2  +  O(stride^3),
 
-which is 0 where pairs stay closed. What is left counts as set free; what tangential forces do in the same way, along
-the slip that the last pairs see beyond what these do, counts as friction's.
+where forces, or lengths of strides, differ from the last to the next. What that adds up to is known before a stride is
+followed, but for the change of the forces in it. A force along the way that is proportional to the pressures, grows
+and fades in the next stride does as much work, so that nothing is left to be set free: it is of the order of 1e-5 of
+the friction.
 """
 
 from __future__ import annotations
@@ -17,16 +20,37 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
-from signorini.engine.step_parts import FollowedPart, Snapshot, ending
+from signorini.engine.step_parts import FollowedPart, Snapshot
+from signorini.interface.interface import Interface
 from signorini.interface.sliding import facing, sliding_pairs
-from signorini.law.states import OPEN, STICK
+from signorini.law.states import OPEN
 from signorini.solution.state import LoadPoint, State
 
 _NOT_MISSED = 1e-13  # of the largest force in the bodies: what rounding may take from equilibrium
+_LARGEST_SHARE = 1e-3  # of the normal forces: what a force along the way that balances energies may be
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Way:
+    """A stride as it is expected to be.
+
+    Attributes
+    ----------
+    moved : (dofs,) displacement in it
+    forces : (d, n) of the pairs, in the mean
+    slides : (n,) pairs of contacts that slide far
+    ahead : length of the next stride, of its own
+    """
+
+    moved: Array
+    forces: Array
+    slides: BoolArray
+    ahead: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,10 +61,12 @@ class Handover:
     ----------
     before : as the pairs of the next stride see it; what fades away in that is in its point
     fading : (dofs,) forces that equilibrium would miss
+    growing : (dofs,) forces that grow in that stride
     """
 
     before: State
     fading: Array
+    growing: Array
 
     @staticmethod
     def to(prepared: Prepared, state: State, loads: Array, known: BoolArray, gap: Array) -> Handover:
@@ -50,7 +76,7 @@ class Handover:
         ----------
         prepared : with the pairs, and the loads as bodies see them then
         state : of the last ones
-        loads : (dofs,) as bodies have seen them so far
+        loads : (dofs,) as bodies have seen them so far, with what has grown
         known : (n,) pairs whose gap the state knows
         gap : (n,) of the others before anything moved, length
         """
@@ -62,7 +88,8 @@ class Handover:
         inner = prepared.K @ state.displacement - interface.on_bodies(forces)
         if state.plastic is not None:
             inner -= state.plastic.forces
-        fading = inner - state.external + loads - applied(prepared, point)[0]
+        changed = applied(prepared, point)[0] - loads
+        fading = inner - state.external - changed
         fading[np.abs(fading) <= _NOT_MISSED * np.abs(inner).max(initial=0.0)] = 0.0
         before = replace(
             state,
@@ -71,13 +98,13 @@ class Handover:
                 gap=np.where(own, first, point.gap),
                 reaction=point.reaction + fading if len(point.reaction) else fading,
             ),
-            external=state.external + fading,
+            external=state.external + changed + fading,
             forces=forces,
             gap=np.where(own, first + moved[0], state.gap),
             tangential=np.where(own, moved[1:], state.tangential),
             status=np.where(own & ~faces, OPEN, state.status),
         )
-        return Handover(before=before, fading=fading)
+        return Handover(before=before, fading=fading, growing=np.zeros_like(fading))
 
     @property
     def share(self) -> float:
@@ -85,25 +112,38 @@ class Handover:
         largest = float(np.abs(self.before.forces).max(initial=0.0))
         return float(np.abs(self.fading).max(initial=0.0)) / largest if largest > 0.0 else 0.0
 
-    def friction(self, parted: Array) -> Array:
-        """(n,) Energy that friction of slipping pairs takes along the slip that the last pairs alone see.
+    def towards(self, rest: sp.csr_array, forces: Array) -> Handover:
+        """With forces that grow: (d n, dofs) rows of B beyond those of the stride, under forces (d, n) of the pairs."""
+        return replace(self, growing=rest.T @ forces.ravel())
+
+    def balanced(self, interface: Interface, way: Way, opened: Array, owed: float) -> Handover:
+        """With a force along the way that does the work that the change of pairs has set free, and will.
 
         Parameters
         ----------
-        parted : (d n,) motion that the last pairs see beyond what these do, in the stride
+        interface : of the stride, its pairs
+        way : as it is expected
+        opened : (n,) as of `booked`
+        owed : energy that was set free before
         """
-        q = self.before.forces[1:]
-        beyond = parted.reshape(self.before.forces.shape)[1:]
-        return np.where(self.before.status > STICK, -0.5 * (q * beyond).sum(axis=0), 0.0)
+        along = (interface.B @ way.moved).reshape(way.forces.shape)
+        along[:, ~way.slides] = along[0] = 0.0
+        length = np.linalg.norm(along, axis=0)
+        force = way.forces[0] * np.divide(along, length, out=np.zeros_like(along), where=length > 0.0)
+        work = 0.5 * (1.0 + way.ahead) * float((force * along).sum())
+        if work <= 0.0:
+            return self
+        freed = float(way.forces[0] @ opened) - 0.5 * float((self.fading + self.growing) @ way.moved)
+        share = np.clip((owed + freed) / work, -_LARGEST_SHARE, _LARGEST_SHARE)
+        return replace(self, growing=self.growing + share * interface.on_bodies(force))
 
-    def booked(self, followed: FollowedPart, opened: Array, taken: Array) -> FollowedPart:
-        """The stride without the work of the change of its pairs, which no load does: friction's share, and set free.
+    def booked(self, followed: FollowedPart, opened: Array) -> FollowedPart:
+        """The stride without the work of the change of its pairs, which no load does and is set free.
 
         Parameters
         ----------
         followed : the stride
-        opened : (n,) what the gap of a pair has grown by in it that is geometry, length
-        taken : (n,) friction's share
+        opened : (n,) what the gap of a pair is made to grow by in it that is geometry, length
         """
         begin, end = self.before, followed.after
         last, whole, passed, seen, energy = begin, begin, 0.0, 0.0, 0.0
@@ -114,14 +154,12 @@ class Handover:
             energy -= (t - passed) * float(0.5 * (last.forces + now.forces)[0] @ opened)
             if shot.whole:
                 mean = 1.0 - 0.5 * (seen + t)
-                energy += mean * float(self.fading @ (now.displacement - whole.displacement))
+                moved = now.displacement - whole.displacement
+                energy += float((mean * self.fading + (1.0 - mean) * self.growing) @ moved)
                 whole, seen = now, t
             last, passed = now, t
             shots.append(replace(shot, state=replace(now, work=now.work - energy, released=now.released - energy)))
-        after = shots[-1].state
-        spent = float(taken.sum())
-        after = replace(after, dissipation=after.dissipation + taken, released=after.released - spent)
-        return ending(replace(followed, snapshots=tuple(shots)), after)
+        return replace(followed, snapshots=tuple(shots), after=shots[-1].state)
 
 
 def supported(point: LoadPoint, dofs: int) -> LoadPoint:

@@ -4,7 +4,7 @@
 Positions come back in every cycle, but for what bodies strain; so pairs, B, and the condensed compliance ``B C B^T`` of
 a stride are those of the cycle before, and only gaps change, by what is worn. Between two strides a displacement of
 the bodies is seen by other pairs: ``B u = B C B_last^T r + ...``, a product of matrices of the size of the interface,
-and ``(B_last - B)^T r`` fades away, see `engine.handing_over`.
+and ``(B_last - B)^T r`` fades away, see `engine.handing_over`; forces that grow are those that were recorded.
 """
 
 from __future__ import annotations
@@ -16,12 +16,13 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.condense.response import ByNodes
+from signorini.engine.handing_over import supported
 from signorini.engine.increments import applied, free_load, moved_by_supports
 from signorini.engine.prepare import Prepared
 from signorini.engine.sliding import Stride
 from signorini.friction.history import PathState
 from signorini.interface.worn_sides import WornSides
-from signorini.law.states import OPEN, STICK
+from signorini.law.states import OPEN
 from signorini.solution.state import LoadPoint
 
 
@@ -55,7 +56,8 @@ class Track:
     Attributes
     ----------
     prepared : with its pairs, and the sides as these see them
-    points : of the loads at its ends; gaps without wear
+    points : of the loads at its ends, the last with what has grown; gaps without wear
+    grown : (dofs,) forces that have
     tangential : (d - 1, a) tangential displacement of the bodies at its end, as it was recorded
     X : (d a, d a) motions of the pairs over forces, length per force
     N : (d a, k) over rigid motions
@@ -65,6 +67,7 @@ class Track:
 
     prepared: Prepared
     points: tuple[LoadPoint, LoadPoint]
+    grown: Array
     tangential: Array
     X: Array
     N: Array
@@ -78,6 +81,9 @@ class Track:
         prepared, before, end = stride.prepared, stride.part.before.point, stride.part.end
         condensed = prepared.paths.condensed
         own = np.where(np.isnan(stride.gaps), 0.0, stride.gaps)
+        if stride.growing.any():
+            end = supported(end, len(stride.growing))
+            end = replace(end, reaction=end.reaction + stride.growing)
         points = replace(before, gap=own[0]), replace(end, gap=own[1])
         free, resultants = [], []
         for point in points:
@@ -90,6 +96,7 @@ class Track:
         return Track(
             prepared=prepared,
             points=points,
+            grown=stride.growing,
             tangential=stride.followed.after.tangential[:, condensed.active],
             X=X,
             N=condensed.response.motions,
@@ -248,12 +255,18 @@ class Link:
     last, next : the strides
     across : (d a, d a) motions of the next one's pairs over forces of the last one's
     free : (d a,) motions of the last one's pairs under the loads at the end of the next
+    first : (d a,) motions of the next one's pairs under the loads at the end of the last
+    left : (m,) condensed forces that have grown in the last one
+    grown : the work of forces that fade and that grow in the next one
     """
 
     last: Track
     next: Track
     across: Array
     free: Array
+    first: Array
+    left: Array
+    grown: _GrownWork
 
     @staticmethod
     def between(last: Track, track: Track) -> Link | None:
@@ -263,22 +276,33 @@ class Link:
             return None
         assert isinstance(one.response, ByNodes)
         moved = one.response.parts.solve(one.B.T.toarray())
-        point = track.points[1]
-        imposed = moved_by_supports(last.prepared, applied(last.prepared, point)[1])[:, one.active]
-        load = one.reduce(free_load(last.prepared, point)).load
-        free = one.response.moved(load) + imposed.ravel()
-        return Link(last=last, next=track, across=np.asarray(two.B @ moved), free=free)
+        begin, end = last.points[1], track.points[1]
+        imposed = [applied(last.prepared, point)[1] for point in (begin, end)]
+        loads = [one.reduce(free_load(last.prepared, point)).load for point in (begin, end)]
+        by_supports = [
+            moved_by_supports(of.prepared, at)[:, one.active] for of, at in zip((track, last), imposed, strict=True)
+        ]
+        transform = last.prepared.constraints.transform
+        return Link(
+            last=last,
+            next=track,
+            across=np.asarray(two.B @ moved),
+            free=one.response.moved(loads[1]) + by_supports[1].ravel(),
+            first=two.response.moved(loads[0]) + by_supports[0].ravel(),
+            left=one.reduce(transform.T @ last.grown).load,
+            grown=_GrownWork.of(last, track, loads[1] - loads[0], imposed[1] - imposed[0]),
+        )
 
     def begun(self, now: StridePairs) -> tuple[StridePairs, Array, Array]:
         """The next one's pairs as the bodies are, (a,) between which gaps, and (m,) what fades away, condensed."""
         a, one, two = len(now.gap), self.last.prepared.paths.condensed, self.next.prepared.paths.condensed
-        moved = self.across @ now.r.ravel() + self.next.free[0] + self.next.N @ now.ways
+        moved = self.across @ now.r.ravel() + self.first + self.next.N @ now.ways
         moved = moved + two.compliance.ravel() * now.r.ravel()
-        fading = np.asarray((one.B - two.B).T @ now.r.ravel())
+        fading = np.asarray((one.B - two.B).T @ now.r.ravel()) + self.left
         return replace(now, tangential=moved[a:].reshape(now.tangential.shape)), now.gap - moved[:a], fading
 
-    def booked(self, old: StridePairs, new: StridePairs, opened: Array, pressing: Array) -> tuple[Array, float]:
-        """Of the work of the change of pairs in the next stride (a,) friction's share, and what is set free.
+    def freed(self, old: StridePairs, new: StridePairs, opened: Array, pressing: Array) -> float:
+        """What the change of pairs sets free in the next stride.
 
         Parameters
         ----------
@@ -291,10 +315,52 @@ class Link:
         by_last = self.across.T @ r1 + self.free + last.N @ new.ways
         by_last -= last.X @ r0 - soft[0] * r0 + last.free[1] + last.N @ old.ways
         by_next = track.X @ r1 - soft[1] * r1 + track.free[1] + track.N @ new.ways
-        by_next -= self.across @ r0 + track.free[0] + track.N @ old.ways
-        work = 0.5 * old.r * (by_last - by_next).reshape(old.r.shape)
-        taken = np.where(old.status > STICK, -work[1:].sum(axis=0), 0.0)
-        return taken, float(pressing @ opened - work.sum() - taken.sum())
+        by_next -= self.across @ r0 + self.first + track.N @ old.ways
+        return float(pressing @ opened - 0.5 * r0 @ (by_last - by_next)) - self.grown.between(old, new)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _GrownWork:
+    """The work of forces that grow in a stride, and of those that have grown in the last one and fade.
+
+    Attributes
+    ----------
+    before, behind : (d a,) over forces of pairs before and behind it
+    ways : (k,) over rigid motions
+    loads : of what loads and supports move
+    """
+
+    before: Array
+    behind: Array
+    ways: Array
+    loads: float
+
+    @staticmethod
+    def of(last: Track, track: Track, loads: Array, imposed: Array) -> _GrownWork:
+        """In one stride after the other.
+
+        Parameters
+        ----------
+        last, track : the strides
+        loads : (m,) condensed, that are added
+        imposed : (dofs,) displacements that are
+        """
+        one, two = last.prepared.paths.condensed, track.prepared.paths.condensed
+        assert isinstance(one.response, ByNodes)
+        mean = 0.5 * (last.grown + track.grown)
+        forces = one.reduce(last.prepared.constraints.transform.T @ mean).load
+        moved = one.response.parts.solve(forces)
+        return _GrownWork(
+            before=one.B @ moved,
+            behind=two.B @ moved,
+            ways=one.response.rigid.T @ forces,
+            loads=float(moved @ loads + mean @ imposed),
+        )
+
+    def between(self, old: StridePairs, new: StridePairs) -> float:
+        """From one state to another."""
+        by_pairs = self.behind @ new.r.ravel() - self.before @ old.r.ravel()
+        return float(by_pairs + self.ways @ (new.ways - old.ways)) + self.loads
 
 
 def closed_of(pairs: StridePairs) -> IntArray:

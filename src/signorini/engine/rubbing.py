@@ -91,19 +91,6 @@ def rubbing_of_segment(sides: WornSides, interface: Interface, paths: CondensedS
     return Rubbing(distance=distance, wearing=wearing, travel=travel, volume=sides.volume @ wearing)
 
 
-def rubbing_of_work(sides: WornSides, interface: Interface, normal: Array, taken: Array) -> Rubbing:
-    """Rubbing of pairs by energy that friction takes at its bound.
-
-    Parameters
-    ----------
-    sides, interface : sides that wear, and the pairs
-    normal, taken : (n,) normal forces, and the energy
-    """
-    distance = np.divide(taken, interface.most(normal), out=np.zeros_like(taken), where=taken != 0.0)
-    wearing = np.where(sides.by_energy, taken, normal * distance) / interface.area
-    return Rubbing(distance=distance, wearing=wearing, travel=distance, volume=sides.volume @ wearing)
-
-
 def rubbed(wear: WearState, rubbing: Rubbing) -> WearState:
     """A state of wear after sides have slid, which have lost nothing by it yet."""
     return replace(wear, distance=wear.distance + rubbing.distance, loose=wear.loose + rubbing.volume)

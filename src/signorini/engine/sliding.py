@@ -3,10 +3,11 @@
 
 Bodies strain little, so that their compliance does not change while they slide: what changes is B, what is opposite
 what, and from the nodes of both sides, which are kept, the condensed interface follows with no factorisation. Within a
-stride pairs are those of its end, where the stride before lets expect it, and gaps go linearly from what they are to
-those of the bodies there; so a side may be curved, and gaps never jump. Between two strides the sides "hand over":
-stick and slip go on from the displacement of the bodies, and what the forces of the last pairs are beside those of the
-next fades away, see `engine.handing_over`. So what is found at the end of a stride the next one begins with.
+stride pairs are the mean of those at its ends, where the stride before lets expect the next, and gaps go linearly from
+what they are to those of the bodies there; so a side may be curved, and gaps never jump. Between two strides the sides
+"hand over": stick and slip go on from the displacement of the bodies, and forces on them grow and fade, see
+`engine.handing_over`. A short stride with the pairs of its end is the last of a part, so that what is found there is in
+equilibrium with the pairs of where the bodies are.
 """
 
 from __future__ import annotations
@@ -21,9 +22,10 @@ from signorini.arrays import Array
 from signorini.engine.handing_over import Handover, supported, with_pairs
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
-from signorini.engine.rubbing import rubbed, rubbing_of_states, rubbing_of_work, set_loose
+from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose
 from signorini.engine.step_parts import FollowedPart, StepPart, ending, joined, keep, reached
-from signorini.engine.stride_pairs import Pairing, paired, stride_of
+from signorini.engine.stride_pairs import Pairing, paired, stride_of, wearing_at
+from signorini.engine.stride_plan import StridePlan
 from signorini.engine.turning import first_share, refuse_turned, with_turned_loads
 from signorini.errors import Interrupted, SolveFailed
 from signorini.interface.sliding import facing, sliding_pairs
@@ -36,6 +38,10 @@ _SHORTEST_MOVE = 0.125  # of a stride: what bodies move at least, however gaps b
 _TURN = 0.1  # radians: what a body turns by in a stride at most, for loads keep their direction as it sees them
 _BLIND = 0.25  # strides: one with the pairs of its beginning that turns out longer is gone again with those of its end
 _OVER = 1.5  # strides: one that turns out longer is gone again
+_LAST = 1.0 / 64.0  # of what is left of a part: its last stride, which has the pairs of its end
+_LEAST_WAY = 1e-2  # strides: a pair that slides less, as where sides roll, has no direction
+_MISSED = 0.05  # strides: one that ends farther from where it was expected to is gone again from what it has shown
+_AGAIN = 3  # times in a row at most that is done: where pairs begin to slip what is expected may not settle
 _GROWTH = 2.0  # of a stride over the one before it, in load
 _SHORTER = 8.0  # times: a stride that is lost is tried again
 _SHORTEST_SHARE = 1e-6  # of the rest of a part: below it no stride that is lost is tried again
@@ -57,10 +63,14 @@ class Stride:
     prepared : with its pairs
     gaps : (2, n) at its ends between sides that are not worn, before anything moved as its pairs see the motion since
     followed : from its beginning to its end
-    end : pairs where its end was expected, which are those of all of it
+    end : pairs where its end was expected
     moved : (dofs,) displacement in it
     slid : the longest way of a pair that touches, in strides
+    missed : how far from where its end was expected pairs are, in strides
     changed : forces of the last pairs that fade away in it, of the largest force
+    loads : (dofs,) at its end as bodies see them, with what has grown
+    growing : (dofs,) forces that grow in it
+    owed : energy that the change of pairs has set free since the part began
     """
 
     part: StepPart
@@ -70,7 +80,11 @@ class Stride:
     end: Pairing
     moved: Array
     slid: float
+    missed: float
     changed: float
+    loads: Array
+    growing: Array
+    owed: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -118,50 +132,51 @@ class _Walk:
         part, u = self.part, self.part.before.displacement
         return Pairing.at(part, u) if u.any() else Pairing(interface=part.prepared.interface, displacement=u)
 
-    def stride(self, now: StepPart, last: Stride | None, begin: Pairing, expected: Array) -> Stride:
-        """One stride, with the pairs of its end as it is expected.
-
-        Parameters
-        ----------
-        now : from where the last one ended
-        last : that one; None at the beginning of the part
-        begin : the pairs there
-        expected : (dofs,) displacement in it; none where nothing is known of it, and pairs are those of its beginning
-        """
-        u, interval = now.before.displacement, now.interval
-        end = Pairing.at(now, u + expected) if expected.any() else begin
-        prepared = with_turned_loads(paired(now.prepared, end.interface), end.displacement)
-        begun = self.part.interval.within(interval.low) if interval.high > interval.low else 0.0
-        done = self.part.interval.within(interval.high)
-        beyond = np.array([self.beyond(prepared, t) for t in (begun, done)])
+    def stride(self, plan: StridePlan, last: Stride | None) -> Stride:
+        """One stride, after the last one; None at the beginning of the part."""
+        now, state, end = plan.now, plan.now.before, plan.end()
+        there = wearing_at(now.prepared, end.interface)
+        begun = self.part.interval.within(now.interval.low) if now.interval.high > now.interval.low else 0.0
+        done = self.part.interval.within(now.interval.high)
+        beyond = np.array([self.beyond(there, t) for t in (begun, done)])
+        known = facing(plan.begin.interface) | (state.status != OPEN)
+        pairs = plan.pairs(end, known, beyond[0])
+        prepared = with_turned_loads(paired(there, pairs.interface), end.displacement)
         own = sliding_pairs(prepared.model, prepared.interface)
-        known = facing(begin.interface) | (now.before.status != OPEN)
-        first, gap = end.gap_before() + beyond
-        handover = Handover.to(prepared, now.before, self.loads(last), known, first)
+        first, gap = end.gap_before(pairs.interface) + beyond
+        handover = Handover.to(prepared, state, self.loads(last), known, first)
         before = handover.before
-        point = replace(supported(now.end, len(u)), gap=np.where(own, gap, now.end.gap))
-        followed = self.followed(replace(now, prepared=prepared, before=before, end=point))
-        moved = followed.after.displacement - u
-        if not expected.any() and moved.any():
-            end = Pairing.at(now, followed.after.displacement)
-        opened = np.where(own & ~self.lost.any(), point.gap - before.point.gap - (beyond[1] - beyond[0]), 0.0)
-        seen_last = begin.interface if last is None else last.prepared.interface
-        taken = handover.friction((seen_last.B - prepared.interface.B) @ moved)
-        walked, followed = followed, handover.booked(followed, opened, taken)
-        followed = ending(followed, replace(followed.after, point=replace(now.end, gap=point.gap)))
-        followed = self.worn(prepared, before, (walked, followed), taken)
-        faces = facing(begin.interface) & facing(end.interface)
-        parted = np.where(faces, ((begin.interface.B - end.interface.B) @ moved)[: len(own)], 0.0)
-        gaps = np.array([before.point.gap, point.gap])
+        gap = np.where(own, gap, now.end.gap)
+        opened = np.where(own & ~self.lost.any(), gap - before.point.gap - (beyond[1] - beyond[0]), 0.0)
+        owed = 0.0 if last is None else last.owed
+        handover = plan.grown(handover, pairs, end, opened, owed)
+        point = supported(now.end, len(state.displacement))
+        point = replace(point, gap=gap, reaction=point.reaction + handover.growing)
+        walked = self.followed(replace(now, prepared=prepared, before=before, end=point))
+        moved = walked.after.displacement - state.displacement
+        if plan.blind and moved.any():
+            end = Pairing.at(now, walked.after.displacement)
+        followed = handover.booked(walked, opened)
+        owed += followed.after.released - walked.after.released
+        followed = ending(followed, replace(followed.after, point=replace(now.end, gap=gap)))
+        faces = facing(plan.begin.interface) & facing(end.interface)
+        parted = np.where(faces, ((plan.begin.interface.B - end.interface.B) @ moved)[: len(own)], 0.0)
+        gaps = np.array([before.point.gap, gap])
+        touch = own & ((before.status != OPEN) | (walked.after.status != OPEN))
+        missed = np.linalg.norm(prepared.interface.motion(moved - plan.expected)[:, touch], axis=0)
         return Stride(
             part=replace(now, prepared=prepared),
             prepared=prepared,
             gaps=gaps - np.array([self.worn_gap(prepared, t) + np.zeros(len(own)) for t in (begun, done)]),
-            followed=followed,
+            followed=self.worn(prepared, before, (walked, followed)),
             end=end,
             moved=moved,
             slid=self.slid(prepared, before, followed.after, parted),
+            missed=float(missed.max(initial=0.0)) / self.limit,
             changed=handover.share,
+            loads=applied(prepared, point)[0],
+            growing=handover.growing,
+            owed=owed,
         )
 
     def slid(self, prepared: Prepared, before: State, after: State, parted: Array) -> float:
@@ -190,7 +205,7 @@ class _Walk:
         """(dofs,) Loads as bodies have seen them so far."""
         part = self.part
         if last is not None:
-            return applied(last.prepared, last.followed.after.point)[0]
+            return last.loads
         return applied(with_turned_loads(part.prepared, part.before.displacement), part.before.point)[0]
 
     def arrived(self, last: Stride) -> Stride:
@@ -198,11 +213,9 @@ class _Walk:
         part, state = self.part, last.followed.after
         at_end = replace(part, interval=replace(part.interval, low=part.interval.high), before=state)
         place = Pairing.at(at_end, state.displacement)
-        return self.stride(at_end, last, place, np.zeros_like(state.displacement))
+        return self.stride(StridePlan(now=at_end, begin=place, expected=np.zeros_like(state.displacement)), last)
 
-    def worn(
-        self, prepared: Prepared, before: State, found: tuple[FollowedPart, FollowedPart], taken: Array
-    ) -> FollowedPart:
+    def worn(self, prepared: Prepared, before: State, found: tuple[FollowedPart, FollowedPart]) -> FollowedPart:
         """A stride with what it has rubbed off the sides, and what gaps that grow by wear alone have set free.
 
         Parameters
@@ -210,7 +223,6 @@ class _Walk:
         prepared : with its pairs
         before : its first state
         found : the stride as it was followed, and with the work of the change of its pairs
-        taken : (n,) of its friction what is beyond that, see `Handover.friction`
         """
         followed, booked = found
         if prepared.wearing is None:
@@ -220,7 +232,6 @@ class _Walk:
         sides, interface = prepared.wearing, prepared.interface
         states = [before, *(shot.state for shot in followed.snapshots)]
         rubbing = rubbing_of_states(sides, interface, states)
-        rubbing = rubbing.and_then(rubbing_of_work(sides, interface, before.forces[0], taken))
         return ending(booked, replace(booked.after, wear=rubbed(wear_of(booked.after), rubbing)))
 
     def followed(self, part: StepPart) -> FollowedPart:
@@ -257,26 +268,38 @@ def follow_sliding(
     first = len(behind)
     rest, share = part, first_share(part.prepared, part.before.point, part.end, walk.limit)
     rate, begin = np.zeros(len(part.before.displacement)), walk.begin()
+    least, known = _LEAST_WAY * walk.limit, None
+    tries, ends = 0, False
     while True:
-        now = rest if share >= 1.0 else rest.cut(share, "handover")
+        shortened = share >= 1.0 and rate.any() and not ends
+        whole = share >= 1.0 and not shortened
+        now = rest if whole else rest.cut(1.0 - _LAST if shortened else share, "handover")
         length = now.interval.high - now.interval.low
+        ahead = 0.0 if whole else _LAST if shortened else 1.0
+        plan = StridePlan(now=now, begin=begin, expected=length * rate, ahead=ahead, last=known, least=least)
         try:
-            stride = walk.stride(now, behind[-1] if behind[first:] else None, begin, length * rate)
+            stride = walk.stride(plan, behind[-1] if behind[first:] else None)
         except (SolveFailed, KeyboardInterrupt) as stop:
             again = isinstance(stop, SolveFailed) and stop.status in (Outcome.NOT_FOUND, Outcome.JUMP)
             if not again or share < _SHORTEST_SHARE:
                 raise keep(stop, [done.followed for done in behind[first:]]) from None
-            share /= _SHORTER
+            share, known, ends = share / _SHORTER, None, False
             continue
-        blind, rate = not rate.any(), stride.moved / (length or 1.0)
-        if stride.slid > (_BLIND if blind else _OVER):
-            share /= ceil(stride.slid)
+        rate = stride.moved / (length or 1.0)
+        if stride.slid > (_BLIND if plan.blind else _OVER):
+            share, known, ends = share / ceil(stride.slid), None, False
+            continue
+        if not plan.blind and stride.missed > _MISSED and tries < _AGAIN:
+            tries += 1
+            continue
+        if shortened and known is None:
+            known = stride.followed.after.forces
             continue
         behind.append(stride)
-        begin = stride.end
+        begin, known, tries, ends = stride.end, None, 0, bool(shortened)
         if not part.prepared.model.axisymmetric:
             _refuse_turned(part, behind[first:])
-        if now is rest:
+        if whole:
             end = [walk.arrived(stride)] if part.prepared.turns else []
             return _finished(part, [*behind[first:], *end])
         rest = rest.rest(now, stride.followed.after)

@@ -218,18 +218,18 @@ class SlidingCycles:
         rubbing = rubbing_of_segment(track.sides, track.prepared.interface, paths, segment)
         forces = np.array([piece.r[0] for piece in segment.pieces]) * paths.condensed.root
         parts = np.diff([piece.factor for piece in segment.pieces])
-        gone = Gone(
-            pairs=track.pairs(segment.end, end, 1),
+        behind = track.pairs(segment.end, end, 1)
+        return Gone(
+            pairs=behind,
             gap=end,
             rubs=(rubbing.wearing * track.prepared.interface.area)[own],
             distance=rubbing.distance[own],
             travel=rubbing.travel[own],
             spent=_spent(segment),
-            freed=0.0,
+            freed=link.freed(pairs, behind, end - first, parts @ (0.5 * (forces[1:] + forces[:-1]))),
             pivots=segment.pivots,
             residual=segment.residual,
         )
-        return gone.booked(link, pairs, end - first, parts @ (0.5 * (forces[1:] + forces[:-1])))
 
 
 def _between_worn(track: Track, depth: Array) -> LoadPoint:

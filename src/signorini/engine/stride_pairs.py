@@ -47,10 +47,9 @@ class Pairing:
             raise SolveFailed(words, status=Outcome.NOT_FOUND) from error
         return Pairing(interface=interface, displacement=displacement)
 
-    def gap_before(self) -> Array:
-        """(n,) Gaps before anything moved, as these pairs see the motion since then."""
-        B = self.interface.B[: len(self.interface)]
-        return np.asarray(self.interface.gap - B @ self.displacement)
+    def gap_before(self, interface: Interface) -> Array:
+        """(n,) Gaps before anything moved, as pairs see the motion since then."""
+        return np.asarray(self.interface.gap - interface.B[: len(interface)] @ self.displacement)
 
 
 def paired(prepared: Prepared, interface: Interface) -> Prepared:
@@ -67,8 +66,14 @@ def paired(prepared: Prepared, interface: Interface) -> Prepared:
         condensed = condensed.among(~prepared.absent)
     elastic = CondensedSolver.of(condensed, interface, prepared.scale, prepared.settings)
     solver = prepared.solver.paired(elastic, interface)
-    wearing = None if prepared.wearing is None else worn_sides(prepared.space, prepared.model, interface)
-    return replace(prepared, interface=interface, solver=solver, wearing=wearing)
+    return replace(prepared, interface=interface, solver=solver)
+
+
+def wearing_at(prepared: Prepared, interface: Interface) -> Prepared:
+    """The model with its sides that wear as other pairs see them."""
+    if prepared.wearing is None:
+        return prepared
+    return replace(prepared, wearing=worn_sides(prepared.space, prepared.model, interface))
 
 
 def stride_of(prepared: Prepared) -> float:
