@@ -21,6 +21,8 @@ from benchmarks import page
 from signorini.engine.prepare import prepare
 from signorini.engine.stride_pairs import paired
 from signorini.gallery.sliding import dragged_cylinder
+from signorini.interface.interface import Interface
+from signorini.interface.mean_pairs import MeanPairs
 from signorini.interface.sliding import paired_at
 from signorini.linalg.registry import factorise
 from signorini.linalg.threads import one_thread
@@ -79,10 +81,11 @@ def row(name: str, given: sg.Model, away_by: float) -> list[object]:
     def solved() -> object:
         return factorise(reduced, condensed.dofs, nodes=constraints.nodes, points=space.places)
 
-    def pairing() -> object:
-        return paired_at(prepared.interface, space, model, constraints, prepared.frames, away)
+    def pairing() -> Interface:
+        there = paired_at(prepared.interface, space, model, constraints, prepared.frames, away)
+        return MeanPairs.between(prepared.interface, there, away, np.zeros(len(there)), least=0.0).interface
 
-    interface = paired_at(prepared.interface, space, model, constraints, prepared.frames, away)
+    interface = pairing()
     whole, pairs, condensing = seconds(solved), seconds(pairing), seconds(lambda: paired(prepared, interface))
     stride = pairs + condensing
     sizes = [T.shape[1], len(interface), len(condensed.dofs)]

@@ -86,7 +86,7 @@ def test_a_dragged_cylinder_keeps_hertz_pressure_and_coulombs_force(monkeypatch:
         assert abs(tangential) == pytest.approx(0.3 * normal, rel=1e-12)
     spent = drag.contacts[0].dissipation
     assert abs(drag.energy_defect) < 1e-12 * drag.work
-    assert abs(drag.released) < 1e-4 * spent
+    assert abs(drag.released) < 1e-6 * spent
     # as long a way under as large a force; it begins to slip only when the bodies have given way
     assert spent == pytest.approx(0.3 * PRESSING * 1.0, rel=0.08)
 
@@ -122,36 +122,29 @@ def test_a_block_is_pushed_over_the_edge_of_its_bed(nonmortar: str) -> None:
 
 @pytest.mark.slow
 def test_there_and_back_again_leaves_the_block_where_it_was() -> None:
-    """Friction turns round; what is stored and set free in the end is small beside what friction took."""
+    """Friction turns round; corners run over facets, and set hardly anything free."""
     solution = sg.solve(block_on_bed(0.7, back=True))
     drag = solution.steps[-1]
     normal, tangential = of_contact(drag.instants[-1])
     assert tangential == pytest.approx(0.3 * normal, rel=1e-12)
-    assert abs(drag.released) < 1e-3 * drag.contacts[0].dissipation
+    assert abs(drag.released) < 1e-5 * drag.contacts[0].dissipation
     assert drag.contacts[0].dissipation == pytest.approx(0.3 * 1.4, rel=0.02)
 
 
-@pytest.mark.slow
-def test_what_a_dragged_wheel_sets_free_falls_with_the_third_power_of_strides(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A rigid wheel has no facets to hand over: what is left is the error of the trapezoidal rule."""
-    freed = []
-    for stride in (0.25, 0.125):
-        monkeypatch.setattr("signorini.engine.stride_pairs._STRIDE", stride)
-        drag = sg.solve(wheel_on_bed(0.6, rolls=False)).steps[-1]
-        normal, tangential = of_contact(drag.instants[-1])
-        assert abs(tangential) == pytest.approx(0.3 * normal, rel=1e-12)
-        assert abs(drag.energy_defect) < 1e-12 * drag.work
-        freed.append(abs(drag.released) / drag.work)
-    assert freed[0] < 1.2e-4
-    assert freed[1] < freed[0] / 8.0
+def test_a_wheel_that_is_dragged_over_a_flat_bed_sets_nothing_free() -> None:
+    """A rigid wheel has no facets to hand over: energies close without any error of the mesh."""
+    drag = sg.solve(wheel_on_bed(0.6, rolls=False)).steps[-1]
+    normal, tangential = of_contact(drag.instants[-1])
+    assert abs(tangential) == pytest.approx(0.3 * normal, rel=1e-12)
+    assert abs(drag.energy_defect) < 1e-12 * drag.work
+    assert abs(drag.released) < 1e-8 * drag.work
 
 
-@pytest.mark.slow
 def test_sliding_without_friction_costs_no_work() -> None:
     """What facets that run over each other do on the way, of what friction would take."""
     drag = sg.solve(dragged_cylinder(stroke=1.0, spacing=0.2, friction=0.0)).steps[-1]
-    assert abs(drag.released) < 5e-5 * 0.3 * PRESSING * 1.0
-    assert abs(drag.work) < 5e-5 * 0.3 * PRESSING * 1.0
+    assert abs(drag.released) < 1e-6 * 0.3 * PRESSING * 1.0
+    assert abs(drag.work) < 1e-6 * 0.3 * PRESSING * 1.0
 
 
 def test_a_wheel_that_is_free_to_turn_rolls() -> None:

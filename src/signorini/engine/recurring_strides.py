@@ -22,7 +22,7 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.sliding import Stride
 from signorini.friction.history import PathState
 from signorini.interface.worn_sides import WornSides
-from signorini.law.states import OPEN
+from signorini.law.states import OPEN, STICK
 from signorini.solution.state import LoadPoint
 
 
