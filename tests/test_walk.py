@@ -21,6 +21,7 @@ FEATURES = {
     "bodies that turn": ["fem/turning_bodies", "fem/body_frames", "engine/turning"],
     "contacts that slide far": ["interface/sliding", "engine/sliding", "engine/handing_over", "engine/stride_pairs"],
     "closures": ["law/closure", "engine/closure_solver", "engine/closure_paths"],
+    "bonds": ["law/cohesion", "engine/bond_rates", "engine/bond_paths", "engine/bond_company"],
     "wear": ["interface/worn_sides", "engine/wear_steps", "model/wear", "solution/wear_state"],
     "bodies that yield": [
         "plasticity",

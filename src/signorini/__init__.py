@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
     from signorini.inspection.check import check
     from signorini.law.closure import Closure
+    from signorini.law.cohesion import Cohesion
     from signorini.law.friction import TabularFriction
     from signorini.meshing.cut import cut
     from signorini.meshing.halves import section
@@ -70,6 +71,7 @@ __all__ = [
     "Bolt",
     "Circle",
     "Closure",
+    "Cohesion",
     "Cone",
     "Contact",
     "CyclicSymmetry",
@@ -159,6 +161,7 @@ _HOMES = {
     "signorini.inspection.check": ("check",),
     "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
     "signorini.law.closure": ("Closure",),
+    "signorini.law.cohesion": ("Cohesion",),
     "signorini.law.friction": ("TabularFriction",),
     "signorini.meshing.cut": ("cut",),
     "signorini.meshing.halves": ("section",),

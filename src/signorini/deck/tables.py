@@ -13,6 +13,7 @@ from signorini.deck.keys import check_keys, make, table, tables
 from signorini.deck.varying import deck_value, deck_values
 from signorini.errors import InputError, Where, one_of
 from signorini.law.closure import Closure
+from signorini.law.cohesion import Cohesion
 from signorini.law.friction import LAWS, FrictionLaw
 from signorini.model.body import Body
 from signorini.model.bolt import Bolt
@@ -249,6 +250,10 @@ def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> C
     if "closure" in given:
         inside: Where = (*where, "closure")
         given["closure"] = _closure(table(given["closure"], inside), inside)
+    if "cohesion" in given:
+        bond: Where = (*where, "cohesion")
+        entry = table(given["cohesion"], bond)
+        given["cohesion"] = make(Cohesion.by_energy if "energy" in entry else Cohesion, entry, bond)
     given = _varied(given, where, reach, mesh.points.shape[1])
     sides = [key for key in ("mortar", *OBSTACLES) if key in given]
     if len(sides) != 1:

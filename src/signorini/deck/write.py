@@ -16,6 +16,7 @@ from signorini.deck.tables import FIELDS, OBSTACLES
 from signorini.deck.varying import spelled
 from signorini.fatigue.criteria import FatigueCriterion
 from signorini.law.closure import Closure
+from signorini.law.cohesion import Cohesion
 from signorini.law.friction import FrictionLaw
 from signorini.model.material import Material
 from signorini.model.model import Model
@@ -141,7 +142,7 @@ def _value(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, FrictionLaw | Closure | FatigueCriterion):
+    if isinstance(value, FrictionLaw | Closure | Cohesion | FatigueCriterion):
         value = value.table
     if isinstance(value, Wear):
         value = _given(value)

@@ -79,11 +79,14 @@ def missing_energy(prepared: Prepared, before: State, after: State) -> float:
 
 
 def interface_energy(prepared: Prepared, state: State) -> float:
-    """In compliant interfaces."""
+    """In compliant interfaces, and in bonds that have opened."""
     forces = np.where(prepared.absent, 0.0, state.forces)
     interface = prepared.interface
     if interface.closure is None:
-        return 0.5 * float(np.vdot(forces**2, interface.compliance))
+        stored = 0.5 * float(np.vdot(forces**2, interface.compliance))
+        if state.bonds is not None and interface.cohesion is not None:
+            stored += 0.5 * float(interface.cohesion.tension(state.bonds, state.gap) @ state.gap)
+        return stored
     along = 0.5 * float(np.vdot(forces[1:] ** 2, interface.compliance[1:]))
     closure = interface.closure.after(state.borne)
     return along + float(interface.area @ closure.energy(forces[0] / interface.area))

@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 
 from signorini.attempt import MethodRun, Spent
+from signorini.engine.bond_paths import broken, follow_bonds
 from signorini.engine.closure_paths import LinesPath, follow_on_lines, on_their_lines
 from signorini.engine.energy import set_free
 from signorini.engine.floating_bodies import approached, resting, undisturbed
@@ -28,6 +29,7 @@ from signorini.engine.path_states import (
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, joined, keep, leg_of
 from signorini.errors import SolveFailed, told
 from signorini.friction.history import Landing, PathSettings, PathState, Segment
+from signorini.friction.history.state import PRESSED
 from signorini.friction.overload import Overload
 from signorini.outcome import Outcome
 from signorini.settings import SolverSettings
@@ -128,6 +130,10 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings 
     refuse_overlap(prepared, offsets(prepared, part.end)[: len(prepared.interface)], part.where)
     behind: list[FollowedPart] = []
     while True:
+        if prepared.interface.cohesion is not None and (gone := _broken(part, behind, jumps)) is not None:
+            behind.append(gone)
+            part = replace(part, before=gone.after)
+            continue
         path = _follow(part, stops)
         jump = path.segment.jump
         if path.segment.followed:
@@ -158,6 +164,14 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings 
         followed = _part_along(cut)
         behind += [followed, _landed(cut.part, followed.after, landing)]
         part = part.rest(cut.part, behind[-1].after)
+
+
+def _broken(part: StepPart, behind: list[FollowedPart], jumps: bool) -> FollowedPart | None:
+    """What bonds do at the load where a part begins that cannot go on gradually; None where all can."""
+    try:
+        return broken(part, stops=not jumps)
+    except SolveFailed as lost:
+        raise keep(lost, behind) from None
 
 
 def _anew(path: _Path, behind: list[FollowedPart]) -> list[FollowedPart]:
@@ -201,6 +215,9 @@ def _follow(part: StepPart, stops: PathSettings | None) -> _Path:
         if prepared.interface.closure is not None:
             found = follow_on_lines(part, stops, tell)
             return _Path(part=found.part, start=found.start, segment=found.segment, stops=stops, lines=found)
+        if prepared.interface.cohesion is not None:
+            way = follow_bonds(part, stops, tell)
+            return _Path(part=way.part, start=way.start, segment=way.segment, stops=stops)
         start, b = path_state(prepared, part.before), right_hand_side(prepared, part.end)
         segment = prepared.paths.follow(start, b, stops, tell)
     return _Path(part=part, start=start, segment=undisturbed(part, segment), stops=stops)
@@ -290,7 +307,7 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
     prepared, interval, state = part.prepared, part.interval, part.before
     whole = part.whole or bool(state.point.given.any())
     last, since, losses, found = state, 0.0, _losses(segment), []
-    if start.r.any() and not state.forces.any():
+    if start.note == PRESSED:
         pressed = recovered(prepared, state, state.point, start)
         lost = float(pressed.dissipation.sum() - state.dissipation.sum())
         last = balanced(prepared, state, pressed, lost)

@@ -11,6 +11,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array
 from signorini.engine.bolts import with_bolts
+from signorini.engine.bond_company import refuse_beside_bonds
 from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
 from signorini.engine.fatigue_places import refuse_requests
 from signorini.errors import InputError
@@ -91,6 +92,8 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     always = make_constraints(space, model, without=sometimes) if sometimes != first else constraints
     loads = nodal_loads(space, model)
     interface = (sector_interface if model.cyclic_symmetries else make_interface)(space, model, always)
+    if interface.cohesion is not None:
+        refuse_beside_bonds(model)
     if start is not None:
         start.check(model, interface)
     parts = connected_bodies(space, model)

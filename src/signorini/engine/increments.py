@@ -252,6 +252,8 @@ def free_load(prepared: Prepared, point: LoadPoint) -> Array:
     loads, imposed = applied(prepared, point)
     if point.given.any():
         loads = loads + prepared.interface.on_bodies(point.given)
+    if point.pull is not None:
+        loads = loads + prepared.interface.on_bodies(point.pull)
     if len(prepared.flowed):
         loads = loads + prepared.flowed
     if imposed.any():

@@ -104,7 +104,7 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
         if body.material.yields:
             raise InputError(f"'{body.name}' yields; the paper's bodies are elastic", where=("body", i, "material"))
     for i, contact in enumerate(prepared.model.contacts):
-        supple = contact.normal_compliance or contact.tangential_compliance or contact.closure
+        supple = contact.normal_compliance or contact.tangential_compliance or contact.closure or contact.cohesion
         if contact.friction in ("stick", "tied") or supple:
             raise InputError("the paper's law has a finite friction and its own penalties", where=("contact", i))
         if contact.wear is not None:

@@ -20,10 +20,12 @@ _SPENT = 1e-9  # of the friction bound: what a slipping pair may lack of it
 
 
 def offsets(prepared: Prepared, point: LoadPoint) -> Array:
-    """(d, n) Motions of all pairs that loads do not cause: gaps and what supports impose, no slip of the past."""
+    """(d, n) Motions of all pairs that loads do not cause: gaps, what supports impose and bonds pull, no past slip."""
     _, imposed = applied(prepared, point)
     offset = moved_by_supports(prepared, imposed)
     offset[0] += point.gap
+    if point.pull is not None:
+        offset += prepared.interface.compliance * point.pull
     return offset
 
 
@@ -52,7 +54,8 @@ def path_state(prepared: Prepared, state: State) -> PathState:
     if not state.forces.any() and not state.displacement.any() and (h[0] < 0.0).any():
         pressed = initial_state(law, b, settings=prepared.settings)
         return replace(pressed, slip=slip + pressed.slip, dissipation=dissipation + pressed.dissipation)
-    r, status = state.forces[:, active] / root, state.status[active]
+    forces = state.forces if state.point.pull is None else state.forces - state.point.pull
+    r, status = forces[:, active] / root, state.status[active]
     if prepared.interface.directions == 2:  # friction that has risen since leaves some to spare
         spare = (status > STICK) & (np.abs(r[1]) < (1.0 - _SPENT) * law.bound.at(r[0]))
         status = np.where(spare, STICK, status)
@@ -80,13 +83,14 @@ def on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState
     return replace(
         last,
         point=point,
-        forces=forces + point.given,
+        forces=forces + point.given if point.pull is None else forces + point.given + point.pull,
         gap=moved[0],
         tangential=moved[1:],
         slip=slip,
         status=status,
         dissipation=dissipation,
         borne=prepared.interface.borne_after(last.borne, forces),
+        bonds=prepared.interface.bonds_after(last.bonds, moved[0]),
     )
 
 
@@ -103,7 +107,9 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
     seen = on_the_way(prepared, last, point, now)
     (loads, imposed), offset = applied(prepared, point), prepared.paths.rested(offsets(prepared, point))
     reduced = condensed.reduce(free_load(prepared, point))
-    free = condensed.displacement(reduced, seen.motion[:, active], seen.forces[:, active], offset[:, active])
+    beside = point.given if point.pull is None else point.given + point.pull
+    acting = (seen.forces - beside)[:, active]
+    free = condensed.displacement(reduced, seen.motion[:, active], acting, offset[:, active])
     displacement = T @ free + imposed
     moved = np.where(active, seen.motion, offset + interface.motion(displacement - imposed))
     moved[1:] -= last.tangential

@@ -344,6 +344,7 @@ def _contact_result(
         worn=frozen(rubbed / area),
         dissipation=float(dissipation.sum()),
         wear=_contact_wear(prepared, surface, state),
+        damage=None if state.bonds is None else frozen(state.bonds.damage[own]),
         **surface.fixed,
     )
 

@@ -280,7 +280,7 @@ def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[
     # the work of temperatures needs the displacements, see signorini.engine.energy
     heated = prepared.model.heats
     # sides that slide far hand over first, and then what friction no longer holds slips too
-    carried = not prepared.model.slides and bool(state.forces.any())
+    carried = not prepared.model.slides and state.bonds is None and bool(state.forces.any())
     change = relaxed(prepared, state, stage.name) if carried else None
     if change is not None:
         after, certificate, trace = change

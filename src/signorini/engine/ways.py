@@ -45,6 +45,8 @@ def follow_part(stage: Stage, part: StepPart) -> FollowedPart:
     SolveFailed
         As far as nothing leads on; it carries what was followed.
     """
+    if part.prepared.interface.cohesion is not None:
+        return _bonded(stage, part)
     first = approached(part)
     if first is None:
         return joined([_on_interface_or_bodies(stage, part)])
@@ -52,6 +54,24 @@ def follow_part(stage: Stage, part: StepPart) -> FollowedPart:
         return joined([first, _on_interface_or_bodies(stage, replace(part, before=first.after))])
     except (SolveFailed, KeyboardInterrupt) as stop:
         raise (keep(stop, [first]) if reached(stop) is not None else stop) from None
+
+
+def _bonded(stage: Stage, part: StepPart) -> FollowedPart:
+    """Follow a straight part of a step with bonds, exactly; increments that are asked for are ends on the way."""
+    step, behind = stage.step, []
+    number = _increments(step, part.interval, stage)
+    rest = part
+    try:
+        for k in range(1, number + 1):
+            end = part.before.point.towards(part.end, k / number)
+            interval = replace(rest.interval, high=part.interval.fraction(k / number))
+            ends = interval if k == number else replace(interval, ends="asked")
+            followed = follow_exactly(replace(rest, end=end, interval=ends), jumps=step.jump != "stop")
+            behind.append(followed)
+            rest = replace(rest, before=followed.after, interval=replace(part.interval, low=interval.high))
+    except (SolveFailed, KeyboardInterrupt) as stop:
+        raise keep(stop, behind) from None
+    return joined(behind)
 
 
 def _on_interface_or_bodies(stage: Stage, part: StepPart) -> FollowedPart:

@@ -153,6 +153,8 @@ def _contacts(examined: Examined) -> Rows:
         friction = "tied" if contact.tied else _friction(contact, points)
         if contact.closure is not None:
             friction += f", {contact.closure.words}"
+        if contact.cohesion is not None:
+            friction += f", {contact.cohesion.words}"
         if contact.facets:
             friction += f" on {contact.facets} facets"
         initial = f"initial gap {gap.min():.5g} to {gap.max():.5g}"
@@ -214,6 +216,8 @@ def _stepping(step: Step, model: Model) -> str:
 
 def _way(step: Step, model: Model) -> str:
     yields = model.yields
+    if any(contact.cohesion for contact in model.contacts):
+        return "exact path" if step.increments in (None, 1) else f"exact path, in {step.increments} parts"
     if step.increments == "auto" or (yields and step.increments is None and step.path is None):
         tolerance = step.tolerance or (TOLERANCE_OF_FLOW if yields else TOLERANCE_OF_FORCES)
         return f"{'elastic to first yield, then ' * yields}increments until forces change less than {tolerance:g}"

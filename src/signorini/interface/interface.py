@@ -22,6 +22,7 @@ from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.law.bound import Bound
 from signorini.law.closure import Borne, PairClosure
+from signorini.law.cohesion import Bonds, PairCohesion, bonded
 from signorini.law.friction import FrictionLaw, PairFriction
 from signorini.law.section import FrictionSection
 from signorini.model.model import Model
@@ -59,6 +60,7 @@ class Interface:
     sides : how every contact was paired
     closure : of the pairs, by their lines; None where they have one compliance each. Where it is there the normal
         compliance of its pairs is the mean one up to the last point
+    cohesion : the bonds of the pairs; None where no contact has any
     """
 
     B: sp.csr_array
@@ -78,6 +80,7 @@ class Interface:
     tied: BoolArray
     sides: tuple[Sides, ...]
     closure: PairClosure | None = None
+    cohesion: PairCohesion | None = None
 
     def __len__(self) -> int:
         return len(self.gap)
@@ -100,6 +103,8 @@ class Interface:
         }
         if self.closure is not None:
             parts["closure"] = self.closure.among(kept)
+        if self.cohesion is not None:
+            parts["cohesion"] = self.cohesion.among(kept)
         return replace(self, B=self.B[self.rows(kept)], friction=self.friction.among(kept), **parts)
 
     def motion(self, displacement: Array) -> Array:
@@ -140,6 +145,10 @@ class Interface:
         if self.closure is None:
             return None
         return self.closure.borne(before, np.maximum(forces[0], 0.0) / self.area, self.area)
+
+    def bonds_after(self, before: Bonds | None, gap: Array) -> Bonds | None:
+        """What bonds remember after gaps (n,) of the contact law, too; None where there are none."""
+        return None if self.cohesion is None or before is None else self.cohesion.after(before, gap)
 
     @property
     def bound(self) -> Bound:
@@ -194,6 +203,10 @@ def make_interface(
     )
     facets = np.array([contact.facets for contact in model.contacts], np.int64)[index]
     gap, closure = _joined([part.gap for part in parts], (0,)), _closure(model, chosen, parts)
+    cohesion = None
+    if any(model.contacts[i].cohesion for i in chosen):
+        bonds = [contact.cohesion for contact in model.contacts]
+        gap, cohesion = bonded(bonds, index, gap, area, float(extent(space.mesh.points).max()))
     B = _relative_rows(space, model, parts, normals, axes, still)
     if model.twists:
         normals, axes = with_hoop(normals, axes)
@@ -220,6 +233,7 @@ def make_interface(
         tied=data("tied").astype(bool),
         sides=tuple(part.sides for part in parts),
         closure=closure,
+        cohesion=cohesion,
     )
 
 

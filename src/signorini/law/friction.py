@@ -310,6 +310,23 @@ class PairFriction:
             blocks=tuple((law, {name: of[own] for name, of in parameters.items()}) for (law, parameters), own in parts)
         )
 
+    def bonded(self, held: BoolArray, sticks: BoolArray) -> PairFriction:
+        """The friction with pairs (n,) that are held, of contacts with Coulomb's law: they stick, or have no friction.
+
+        Parameters
+        ----------
+        held : (n,) pairs that are bonded
+        sticks : (n,) whether they stick
+        """
+        coefficient, blocks = np.where(sticks, np.inf, 0.0), []
+        for (law, parameters), own, mu in zip(
+            self.blocks, np.split(held, self._ends), np.split(coefficient, self._ends), strict=True
+        ):
+            given = {"friction": mu, "shear_limit": np.full(len(mu), np.inf)} if own.any() else {}
+            changed = {name: np.where(own, value, parameters[name]) for name, value in given.items()}
+            blocks.append((law, {**parameters, **changed}))
+        return PairFriction(blocks=tuple(blocks))
+
     def bound(self, area: Array) -> Bound:
         """The bound of friction forces; ``area`` (n,) forces per traction."""
         parts = zip(self.blocks, np.split(area, self._ends), strict=True)

@@ -13,6 +13,7 @@ from signorini.arrays import Array
 from signorini.checks import choice, number, text, vector, whole
 from signorini.errors import InputError, Where
 from signorini.law.closure import Closure
+from signorini.law.cohesion import Cohesion, refuse_beside
 from signorini.law.friction import Coulomb, FrictionLaw
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
@@ -50,6 +51,7 @@ class Contact:
         ``1 / E_n`` and ``1 / E_tau`` the paper's penalties or a physical contact stiffness
     closure : what lies between the sides, a gasket, a coating or roughness: pressure over closure in place of a
         ``normal_compliance``; None (default): nothing
+    cohesion : a bond of sides that touch at the beginning, which bears tension up to a limit; None (default): none
     name : what results call it; the nonmortar side by default
     coupling : how the sides see each other. "nodes": node opposite node, for meshes that match; "mortar": integrals
         over both sides, for any meshes; "node-to-segment": nodes on the facets opposite, simple and less accurate;
@@ -93,6 +95,7 @@ class Contact:
     wear: Wear | None = None
     sliding: Literal["small", "finite"] = "small"
     closure: Closure | None = None
+    cohesion: Cohesion | None = None
 
     def __post_init__(self) -> None:
         text(self.nonmortar, ("nonmortar",))
@@ -125,6 +128,8 @@ class Contact:
             self._check_wear(self.wear)
         if self.closure is not None:
             self._check_closure(self.closure)
+        if self.cohesion is not None:
+            self._check_cohesion(self.cohesion)
         if self.sliding == "finite":
             self._check_sliding()
 
@@ -163,6 +168,24 @@ class Contact:
         ):
             if found:
                 raise InputError(f"is given, but {words}; expected one of both", where=("closure",))
+
+    def _check_cohesion(self, cohesion: Cohesion) -> None:
+        """What is bonded neither wears nor slides far, and rubs by Coulomb's law alone once the bond is gone."""
+        if not isinstance(cohesion, Cohesion):
+            raise InputError(f"is {cohesion!r}; expected a Cohesion", where=("cohesion",))
+        refuse_beside(
+            (
+                (self.tied, "the contact is tied"),
+                (self.closure is not None, "a closure too"),
+                (self.wear is not None, "the contact wears"),
+                (self.sliding == "finite", "the sides slide far"),
+                (self.adhesion != 0.0 or self.shear_limit is not None, "adhesion or a shear limit too"),
+                (
+                    not self.coulomb or isinstance(self.friction, tuple),
+                    "friction is not Coulomb's with one coefficient",
+                ),
+            )
+        )
 
     def _check_sliding(self) -> None:
         """What goes with sides that slide far: gaps are those of the sides where they are."""

@@ -33,6 +33,10 @@ _WEAR_COLUMNS: Columns = {
 """Behind the others where any contact wears: of the nonmortar side at its nodes, of the other as they see it."""
 
 
+_BOND_COLUMNS: Columns = {"damage": lambda contact: [] if contact.damage is None else contact.damage.tolist()}
+"""Behind the others where any contact is bonded: 0 where the bond holds, 1 where there is none."""
+
+
 def _depths(contact: ContactResult, name: str) -> list[Any]:
     return [""] * len(contact.node) if contact.wear is None else getattr(contact.wear, name).tolist()
 
@@ -48,6 +52,8 @@ def _rows(step: int, contact: ContactResult, labels: IntArray, names: Columns) -
 def write_contacts(history: History, path: Path) -> None:
     """Write the contacts at the end of every step as ``contact.csv``; numbers read back exactly."""
     labels, names = history.model.mesh.labels, {**_COLUMNS, **(_WEAR_COLUMNS if history.model.wears else {})}
+    if any(contact.cohesion for contact in history.model.contacts):
+        names |= _BOND_COLUMNS
     ends = ((number, contact) for number, step in enumerate(history.steps, start=1) for contact in step.contacts)
     rows = (row for number, contact in ends for row in _rows(number, contact, labels, names))
     write_csv(("step", "contact", "node", *names), rows, path)

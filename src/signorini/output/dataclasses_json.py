@@ -24,6 +24,7 @@ _HOMES = (
     "signorini.attempt",
     "signorini.fatigue.criteria",
     "signorini.law.closure",
+    "signorini.law.cohesion",
     "signorini.model.body",
     "signorini.model.bolt",
     "signorini.model.conditions",

@@ -132,8 +132,15 @@ def certify(
     gap = state.point.gap / scale.length + moved[0]
     normal, tangential = r[0] / scale.force, r[1:] / scale.force
     sliding = moved[1:] - before / scale.length
+    pressing, held = r[0], interface.tied
+    if interface.cohesion is not None and state.bonds is not None:
+        pressing = r[0] + interface.cohesion.tension(state.bonds, scale.length * gap)
+        normal, held = (
+            pressing / scale.force,
+            held | (interface.cohesion.holds(state.bonds) & interface.cohesion.sticks),
+        )
     gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
-    bound = np.where(interface.tied, np.inf, interface.most(r[0]) / scale.force)
+    bound = np.where(held, np.inf, interface.most(pressing) / scale.force)
     room = bound - interface.effort(tangential)
     friction = _friction(interface, bound, tangential, sliding, room)
     gap, normal, tension, room, friction = (

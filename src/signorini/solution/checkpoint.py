@@ -177,7 +177,8 @@ class Checkpoint(Short):
 def _posed(interface: Interface) -> dict[str, NDArray[Any]]:
     """What contacts say of their pairs."""
     closure = {} if interface.closure is None else interface.closure.parameters
-    return interface.friction.parameters | closure | {name: getattr(interface, name) for name in _POSED}
+    bonds = {} if interface.cohesion is None else interface.cohesion.parameters
+    return interface.friction.parameters | closure | bonds | {name: getattr(interface, name) for name in _POSED}
 
 
 def _yields(model: Model) -> dict[str, Plastic]:

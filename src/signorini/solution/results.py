@@ -48,6 +48,7 @@ class ContactResult(Short):
     worn : (n,) dissipation of this step at each node, work per area
     dissipation : of this step, work
     wear : what the sides have lost since the beginning; None where none wears
+    damage : (n,) of bonds, 0 where they hold, 1 where there is none (any more); None where no contact is bonded
     """
 
     name: str
@@ -70,6 +71,7 @@ class ContactResult(Short):
     worn: Array
     dissipation: float
     wear: ContactWear | None = None
+    damage: Array | None = None
 
     @property
     def closed(self) -> BoolArray:
@@ -202,7 +204,7 @@ class PairEvent:
     contact : name
     nodes : indices of nonmortar nodes, from 0
     what : "closes", "opens", "slips", "sticks"; "kinks": slips on, at the shear limit or below it again; "stiffens" or
-        "softens", at a kink of its closure
+        "softens", at a kink of its closure; "softens": its bond reaches its strength; "breaks": it is gone
     """
 
     load_factor: float

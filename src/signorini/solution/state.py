@@ -12,6 +12,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.interface.interface import Interface
 from signorini.law.closure import Borne
+from signorini.law.cohesion import Bonds
 from signorini.law.states import OPEN
 from signorini.plasticity.measure import heat_work
 from signorini.plasticity.state import PlasticState
@@ -31,6 +32,7 @@ class LoadPoint(Short):
     given : (d, n) forces of pairs whose contact is switched off, on their way to zero; 0 elsewhere
     reaction : (dofs,) forces of supports that let go, on their way to zero; empty where none ever did
     offset : (dofs,) displacements beyond what supports prescribe, of those that hold again; empty where none ever did
+    pull : (d, n) forces with which bonds hold beside what the law of contact bears; None where no pair is bonded
     """
 
     factors: Mapping[str, float]
@@ -38,11 +40,13 @@ class LoadPoint(Short):
     given: Array
     reaction: Array = field(default_factory=lambda: np.zeros(0))
     offset: Array = field(default_factory=lambda: np.zeros(0))
+    pull: Array | None = None
 
     def towards(self, end: LoadPoint, t: float) -> LoadPoint:
         """The point at the part t of the way to another."""
         if t == 1.0:
             return end
+        pull = None if self.pull is None or end.pull is None else (1.0 - t) * self.pull + t * end.pull
         factors = {name: (1.0 - t) * self.factors.get(name, 0.0) + t * value for name, value in end.factors.items()}
         return LoadPoint(
             factors=MappingProxyType(factors),
@@ -50,6 +54,7 @@ class LoadPoint(Short):
             given=(1.0 - t) * self.given + t * end.given,
             reaction=(1.0 - t) * self.reaction + t * end.reaction,
             offset=(1.0 - t) * self.offset + t * end.offset,
+            pull=pull,
         )
 
 
@@ -74,6 +79,7 @@ class State(Short):
     plastic : what the points of the bodies remember of plastic flow; None where no body yields
     wear : what the sides have lost by wear; None where none wears
     borne : what closures remember that do not spring back along their lines; None where none does so
+    bonds : what bonds remember; None where no pair is bonded
     """
 
     point: LoadPoint
@@ -91,6 +97,7 @@ class State(Short):
     plastic: PlasticState | None = None
     wear: WearState | None = None
     borne: Borne | None = None
+    bonds: Bonds | None = None
 
     @property
     def motion(self) -> Array:
@@ -100,12 +107,16 @@ class State(Short):
     @property
     def dissipated(self) -> Array:
         """(n,) By the friction of the pairs, and by what lies between them, since the beginning."""
-        return self.dissipation if self.borne is None else self.dissipation + self.borne.taken
+        return sum((memory.taken for memory in self._memories), self.dissipation)
 
     @property
     def closing_work(self) -> float:
-        """Energy that closures which do not spring back along their lines have taken, since the beginning."""
-        return 0.0 if self.borne is None else float(self.borne.taken.sum())
+        """Energy that bonds and closures which do not spring back have taken, since the beginning."""
+        return sum(float(memory.taken.sum()) for memory in self._memories)
+
+    @property
+    def _memories(self) -> tuple[Borne | Bonds, ...]:
+        return tuple(memory for memory in (self.borne, self.bonds) if memory is not None)
 
     @property
     def plastic_work(self) -> float:
@@ -137,6 +148,7 @@ def initial_state(factors: Mapping[str, float], dofs: int, interface: Interface)
         work=0.0,
         dissipation=np.zeros(n),
         released=0.0,
+        bonds=None if interface.cohesion is None else interface.cohesion.unharmed,
     )
 
 
@@ -200,6 +212,7 @@ def next_state(
         plastic=plastic,
         wear=state.wear,
         borne=interface.borne_after(state.borne, forces),
+        bonds=interface.bonds_after(state.bonds, moved[0]),
     )
 
 

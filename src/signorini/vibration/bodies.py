@@ -109,6 +109,9 @@ def vibrating_bodies(model: Model, end: Checkpoint | None = None) -> VibratingBo
 
 def _refuse(model: Model) -> None:
     """What no mode is computed of."""
+    if any(contact.cohesion for contact in model.contacts):
+        i = next(i for i, contact in enumerate(model.contacts) if contact.cohesion)
+        raise InputError("is given; modes do not know bonds", where=("contact", i, "cohesion"))
     if model.slides:
         i = next(i for i, contact in enumerate(model.contacts) if contact.slides)
         raise InputError('is "finite"; modes know pairs that stay', where=("contact", i, "sliding"))

@@ -15,7 +15,7 @@ from signorini.friction.history.rates import Rates
 from signorini.friction.history.state import PathState
 from signorini.outcome import Outcome
 
-What = Literal["closes", "opens", "slips", "sticks", "kinks", "stiffens", "softens"]
+What = Literal["closes", "opens", "slips", "sticks", "kinks", "stiffens", "softens", "breaks"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,7 +28,7 @@ class Event:
     pairs : their numbers
     what : "closes" (sticking or slipping), "opens", "slips" (from stick, or the other way round), "sticks" (from slip),
         "kinks" (slips on, on another branch of its bound: it reaches the shear limit or leaves it), "stiffens",
-        "softens" (comes to a kink of its closure)
+        "softens" (comes to a kink of its closure, or to the strength of its bond), "breaks" (its bond is gone)
     state : the state at this load, with the codes that hold from here on
     """
 

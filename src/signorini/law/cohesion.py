@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bonds between the sides of a contact: what they bear in tension, up to a strength, and how they let go.
+
+A bond that holds is rigid beside the interface's own compliance, which is in series. From its strength on its tension
+falls along a straight line to zero at an opening, or at once. The damage is how much of that opening it has seen at
+most: bonds that close again go back to no tension in proportion to the opening, and up the same way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal, Self
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray, frozen
+from signorini.checks import choice, number
+from signorini.errors import InputError
+
+_TOUCHING = 1e-9  # of the size of the bodies: a gap of sides that touch
+_UNHARMED = 1e-12  # of the opening at which a bond is gone: less is rounding
+
+
+@dataclass(frozen=True)
+class Cohesion:
+    """A bond between sides that touch at the beginning: they pull on each other up to a strength.
+
+    While it holds the sides do not part, nor slide, but for the compliances of the contact. Then its tension falls to
+    zero, and what is left is the contact as it is without a bond.
+
+    Parameters
+    ----------
+    strength : the most tension, force per area, > 0
+    opening : at which nothing is left of the bond, length, >= 0, beyond the closed state where the contact has no
+        compliance, and from no tension on where it has; 0 (default): it lets go at once
+    shear : "held": while it holds the sides do not slide (default), or "free": they do without friction, as on a plane
+        of symmetry, where the sides are one
+
+    Examples
+    --------
+    >>> Cohesion(5.0, opening=0.02).energy, Cohesion.by_energy(5.0, energy=0.05).opening
+    (0.05, 0.02)
+    """
+
+    strength: float
+    opening: float = 0.0
+    shear: Literal["held", "free"] = "held"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "strength", number(self.strength, ("strength",), above=0.0))
+        object.__setattr__(self, "opening", number(self.opening, ("opening",), least=0.0))
+        choice(self.shear, ("held", "free"), ("shear",), "shear")
+
+    @classmethod
+    def by_energy(cls, strength: float, *, energy: float, shear: Literal["held", "free"] = "held") -> Self:
+        """A bond by the energy per area, > 0, that it takes to open it for good: half of strength times opening.
+
+        Parameters
+        ----------
+        strength : the most tension, force per area
+        energy : per area
+        shear : as of the bond itself
+        """
+        most = number(strength, ("strength",), above=0.0)
+        return cls(most, 2.0 * number(energy, ("energy",), above=0.0) / most, shear)
+
+    @property
+    def energy(self) -> float:
+        """Per area that its opening takes."""
+        return 0.5 * self.strength * self.opening
+
+    @property
+    def table(self) -> dict[str, Any]:
+        """What a deck says of it."""
+        opening = {"opening": self.opening} if self.opening else {}
+        return {"strength": self.strength} | opening | ({"shear": self.shear} if self.shear == "free" else {})
+
+    @property
+    def words(self) -> str:
+        """What `check` says of it."""
+        how = f"gone at an opening of {self.opening:g}" if self.opening else "lets go at once"
+        slides = ", free to slide" if self.shear == "free" else ""
+        return f"bonded up to a tension of {self.strength:g}{slides}, {how}"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Bonds:
+    """What bonds remember.
+
+    Attributes
+    ----------
+    damage : (n,) the largest opening over that at which they are gone, 0 .. 1; 1 where there is none
+    taken : (n,) energy that they have taken for good
+    """
+
+    damage: Array
+    taken: Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PairCohesion:
+    """The bonds of n pairs.
+
+    Attributes
+    ----------
+    most : (n,) tension that they bear, force; 0 where there is no bond
+    opening : (n,) at which they are gone, length
+    sticks : (n,) those that hold sides from sliding too
+
+    Examples
+    --------
+    >>> pairs = PairCohesion(most=np.array([2.0, 0.0]), opening=np.array([0.1, 0.0]), sticks=np.ones(2, bool))
+    >>> bonds = pairs.unharmed
+    >>> bonds = pairs.after(bonds, np.array([0.05, 0.3]))
+    >>> bonds.damage.tolist(), bonds.taken.tolist(), pairs.tension(bonds, np.array([0.025, 0.3])).tolist()
+    ([0.5, 1.0], [0.05, 0.0], [0.5, 0.0])
+    """
+
+    most: Array
+    opening: Array
+    sticks: BoolArray
+
+    @property
+    def unharmed(self) -> Bonds:
+        """Nothing has happened yet."""
+        return Bonds(damage=frozen(self.most == 0.0), taken=frozen(np.zeros_like(self.most)))
+
+    def holds(self, bonds: Bonds) -> BoolArray:
+        """(n,) Bonds that have not begun to open."""
+        return np.asarray((self.most > 0.0) & (bonds.damage == 0.0))
+
+    def after(self, bonds: Bonds, gap: Array, gone: BoolArray | None = None) -> Bonds:
+        """What bonds remember after openings.
+
+        Parameters
+        ----------
+        bonds : what they remembered
+        gap : (n,) openings, length; NaN where nobody has looked
+        gone : (n,) those that have let go at once
+        """
+        seen = np.divide(gap, self.opening, out=np.zeros_like(gap), where=self.opening > 0.0)
+        seen = np.where(np.isfinite(seen) & (seen > _UNHARMED), np.minimum(seen, 1.0), 0.0)
+        damage = np.maximum(bonds.damage, np.where(seen > 1.0 - _UNHARMED, 1.0, seen))
+        if gone is not None:
+            damage = np.where(gone, 1.0, damage)
+        return Bonds(damage=frozen(damage), taken=frozen(0.5 * self.most * self.opening * damage))
+
+    def tension(self, bonds: Bonds, gap: Array) -> Array:
+        """(n,) The most tension, force, that bonds bear at openings (n,): on the line of their damage where they open.
+
+        Beyond the opening that the damage says, on the line on which it grows.
+        """
+        span = np.where(self.opening > 0.0, self.opening, 1.0)
+        seen = np.maximum(bonds.damage, np.clip(np.where(self.opening > 0.0, gap / span, 0.0), 0.0, 1.0))
+        limit = self.most * (1.0 - seen)
+        part = np.divide(gap, seen * span, out=np.ones_like(gap), where=(seen > 0.0) & (seen < 1.0))
+        return np.asarray(limit * np.clip(part, 0.0, 1.0))
+
+    def among(self, kept: BoolArray) -> PairCohesion:
+        """The bonds of the kept pairs, (n,)."""
+        return replace(self, most=self.most[kept], opening=self.opening[kept], sticks=self.sticks[kept])
+
+    @property
+    def parameters(self) -> dict[str, Array]:
+        """(n,) What there is of every pair by name."""
+        shear = np.where(self.sticks, 1.0, 0.0)
+        return {"tension that a bond bears": self.most, "opening of a bond": self.opening, "shear of a bond": shear}
+
+
+def bonded(
+    cohesions: Sequence[Cohesion | None], contact: IntArray, gap: Array, area: Array, size: float
+) -> tuple[Array, PairCohesion]:
+    """Gaps of pairs, of those that are bonded without rounding, and their bonds: pairs that touch have one.
+
+    Parameters
+    ----------
+    cohesions : of every contact
+    contact, gap, area : (n,) of every pair
+    size : of the bodies, length
+
+    Raises
+    ------
+    InputError
+        Where no pair of a contact touches, with its index.
+    """
+    strength, opening = (
+        np.array([getattr(cohesion, name, 0.0) for cohesion in cohesions])[contact] for name in ("strength", "opening")
+    )
+    there = (strength > 0.0) & (gap <= _TOUCHING * size)
+    for i in np.flatnonzero([cohesion is not None for cohesion in cohesions]):
+        if not there[contact == i].any():
+            words = 'bonds nothing: no pair touches at the beginning; expected sides that do, or gap = "zero"'
+            raise InputError(words, where=("contact", int(i), "cohesion"))
+    most = np.where(there, strength * area, 0.0)
+    sticks = np.array([cohesion is not None and cohesion.shear == "held" for cohesion in cohesions])[contact]
+    pairs = PairCohesion(
+        most=frozen(most), opening=frozen(np.where(there, opening, 0.0)), sticks=frozen(there & sticks, np.bool_)
+    )
+    return np.where(there & (gap > -_TOUCHING * size), 0.0, gap), pairs
+
+
+def refuse_beside(found: tuple[tuple[bool, str], ...]) -> None:
+    """Refuse a bond beside what does not go with it, each with its words.
+
+    Raises
+    ------
+    InputError
+        With ``cohesion`` as its place.
+    """
+    for there, words in found:
+        if there:
+            raise InputError(f"is given, but {words}; expected one of both", where=("cohesion",))

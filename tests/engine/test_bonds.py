@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sides that are bonded: torn off gradually and at once, in every kind of model, with their energy and certificate."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import signorini as sg
+from signorini.engine.increments import measured
+from signorini.engine.prepare import prepare
+from signorini.gallery.cohesion import (
+    ARM_HEIGHT,
+    ARM_MODULUS,
+    BAR_AREA,
+    BAR_LENGTH,
+    BAR_MODULUS,
+    bonded_bar,
+    cantilever,
+)
+
+STIFFNESS = BAR_MODULUS * BAR_AREA / BAR_LENGTH
+GENTLE = sg.Cohesion(5.0, opening=0.02)  # its tension falls by 250 per length, that of the bar by 1000
+
+
+def tension(step):
+    """Of a bar, force per area, the same everywhere."""
+    found = -step.contacts[0].pressure
+    assert_allclose(found, found[0], atol=1e-12)
+    return float(found[0])
+
+
+@pytest.mark.parametrize("compliance", [0.0, 1e-3])
+def test_a_bar_is_drawn_off_let_go_and_drawn_again_on_the_lines_of_its_bond(compliance):
+    """Stretches, back and forth, with the tension and opening of bar, interface and bond in series by hand."""
+    stretches = (0.004, 0.012, 0.003, 0.016, -0.002, 0.03, -0.001)
+    steps = [sg.Step(scale={"pull": stretch}) for stretch in stretches]
+    solution = sg.solve(bonded_bar(GENTLE, 1.0, compliance=compliance, steps=steps))
+    soft, worst, taken = BAR_LENGTH / BAR_MODULUS + compliance, 0.0, 0.0
+    for stretch, step in zip(stretches, solution.steps, strict=True):
+        on_line = (stretch / soft - 5.0) / (1.0 / soft - 250.0)  # softening, where it is beyond the worst so far
+        before, worst = worst, max(worst, min(on_line, 0.02))
+        slope = 5.0 * (1.0 - worst / 0.02) / worst if worst else np.inf
+        opening = max(stretch, 0.0) / (1.0 + soft * slope) if worst else 0.0
+        expected = (stretch - opening) / soft
+        assert tension(step) == pytest.approx(expected, abs=1e-12)
+        assert_allclose(step.contacts[0].gap, opening + compliance * expected, atol=1e-15)
+        assert_allclose(step.contacts[0].damage, worst / 0.02, atol=1e-12)
+        assert step.dissipation == pytest.approx(BAR_AREA * 2.5 * (worst - before), abs=1e-14)
+        assert step.released == 0.0
+        assert abs(step.energy_defect) < 1e-14
+        taken += step.work
+    assert taken == pytest.approx(BAR_AREA * GENTLE.energy + 0.5 * BAR_AREA * 0.001**2 / soft, rel=1e-12)
+    events = [(event.what, round(event.load_factor, 9)) for event in solution.steps[1].events]
+    assert events == [("softens", round(1.0 + (5.0 * soft - 0.004) / 0.008, 9))]
+    assert [event.what for event in solution.steps[5].events] == ["breaks"]
+
+
+@pytest.mark.parametrize("opening", [0.0, 0.002])
+def test_a_bond_that_is_stiffer_than_the_bar_lets_go_at_once(opening):
+    bond = sg.Cohesion(5.0, opening=opening)
+    step = sg.solve(bonded_bar(bond, 0.012, steps=[sg.Step()])).steps[0]
+    stored = 0.5 * (5.0 * BAR_AREA) ** 2 / STIFFNESS
+    assert step.work == pytest.approx(stored, rel=1e-12)
+    assert step.dissipation == pytest.approx(BAR_AREA * bond.energy, rel=1e-12)
+    assert step.released == pytest.approx(stored - BAR_AREA * bond.energy, rel=1e-12)
+    assert {event.what for event in step.events} == {"softens", "breaks"}
+    assert_allclose([event.load_factor for event in step.events], 5.0 / 12.0, rtol=1e-12)
+    assert any("bonds that let go at once" in note for note in step.notes)
+    assert [instant.what for instant in step.instants if instant.what == "landing"]
+
+
+def test_a_history_may_end_where_bonds_let_go():
+    with pytest.raises(sg.SolveFailed) as caught:
+        sg.solve(bonded_bar(sg.Cohesion(5.0), 0.012, steps=[sg.Step(jump="stop")]))
+    assert caught.value.status == "jump"
+    assert "step 1 at 41.666667%: a jump: bonds let go at once" in str(caught.value)
+    assert caught.value.solution.steps[0].load_factor == pytest.approx(5.0 / 12.0)
+
+
+def test_a_load_that_the_bond_does_not_bear_has_no_equilibrium():
+    model = replace(
+        bonded_bar(GENTLE),
+        supports=[sg.Support("left", u=(0, None))],
+        loads=[sg.Load("top", traction=(0, 6.0), name="pull")],
+    )
+    with pytest.raises(sg.SolveFailed, match=r"step 1 at 83.333333%: a jump: bonds let go at once"):
+        sg.solve(model)
+
+
+@pytest.mark.slow
+def test_an_arm_is_peeled_off_by_the_moment_of_beam_theory():
+    """Once the bond softens along its whole length of softening the moment stays, M^2 = 2 E I G, as the crack grows."""
+    bond = sg.Cohesion(2.5, opening=0.024, shear="free")
+    limit = np.sqrt(2.0 * ARM_MODULUS * ARM_HEIGHT**3 / 12.0 * bond.energy)
+    turns = (0.04, 0.06, 0.07, 0.08)
+    steps = [sg.Step(scale={"peel": turn}) for turn in turns]
+    first, *rest = sg.solve(cantilever(bond, rotation=1.0, steps=steps)).steps
+    assert abs(first.rigid_bodies["grip"].moment) < 0.9 * limit
+    for step in rest:
+        assert abs(step.rigid_bodies["grip"].moment) == pytest.approx(limit, rel=5e-3)
+        assert step.released == 0.0
+        assert abs(step.energy_defect) < 1e-12 * step.work
+
+
+def test_a_certificate_asks_the_law_of_the_bond():
+    model = bonded_bar(GENTLE, 0.012)
+    prepared, state = prepare(model), sg.solve(model).end.state
+    assert measured(prepared, state).passed
+    worse = replace(state, bonds=replace(state.bonds, damage=state.bonds.damage + 1e-6))
+    assert measured(prepared, worse).tension > 1e-8
+    better = replace(state, bonds=replace(state.bonds, damage=state.bonds.damage * 0.0))
+    assert measured(prepared, better).passed  # what the opening says counts
+    cohesion = prepared.interface.cohesion
+    stronger = replace(
+        prepared, interface=replace(prepared.interface, cohesion=replace(cohesion, most=1.01 * cohesion.most))
+    )
+    assert measured(stronger, state).complementarity > 1e-8
+
+
+def test_increments_are_ends_on_the_exact_path():
+    step = sg.solve(bonded_bar(GENTLE, 0.012, steps=[sg.Step(increments=4)])).steps[0]
+    whole = sg.solve(bonded_bar(GENTLE, 0.012)).steps[0]
+    assert np.array_equal([i.load_factor for i in step.instants if i.what == "asked"], [0.25, 0.5, 0.75])
+    assert tension(step) == pytest.approx(tension(whole), rel=1e-13)
+
+
+def test_a_history_goes_on_from_a_file_and_not_with_another_bond(tmp_path):
+    steps = [sg.Step(scale={"pull": stretch}) for stretch in (0.012, 0.004, 0.015)]
+    whole = sg.solve(bonded_bar(GENTLE, 1.0, steps=steps))
+    sg.solve(bonded_bar(GENTLE, 1.0, steps=steps[:2])).save_state(tmp_path / "start.npz")
+    rest = sg.solve(bonded_bar(GENTLE, 1.0, steps=steps[2:]), start=tmp_path / "start.npz").steps[0]
+    assert np.array_equal(rest.contacts[0].pressure, whole.steps[2].contacts[0].pressure)
+    assert rest.dissipation == whole.steps[2].dissipation > 0.0
+    with pytest.raises(sg.InputError, match=r"the opening of a bond 0.02"):
+        sg.solve(bonded_bar(sg.Cohesion(5.0, opening=0.03), 1.0, steps=steps[2:]), start=tmp_path / "start.npz")
+
+
+REFUSED = [
+    ({"bodies": [sg.Body("block", sg.Elastic(E=1.0, nu=0.0, plastic=sg.Plastic(1.0)))]}, "a body yields"),
+    ({"steps": [sg.Step(friction={"bond": 0.1})]}, "changes contacts of a model with bonds"),
+    ({"steps": [sg.Step(increments="auto")]}, 'is "auto", but bonds are followed exactly'),
+]
+
+
+@pytest.mark.parametrize(("changed", "told"), REFUSED)
+def test_what_bonds_do_not_go_with(changed, told):
+    with pytest.raises(sg.InputError, match=told):
+        sg.solve(replace(bonded_bar(GENTLE, 0.001), **changed))
+
+
+def test_bodies_as_they_are_know_no_bonds():
+    with pytest.raises(sg.InputError, match=r"contact\[0\].cohesion: needs the condensed interface"):
+        sg.solve(bonded_bar(GENTLE, 0.001), backend="iterative")
+    solution = sg.solve(bonded_bar(GENTLE, 0.001))
+    with pytest.raises(sg.InputError, match="modes do not know bonds"):
+        sg.natural_modes(solution, 1)
