@@ -144,3 +144,21 @@ def members(values: Any, kind: type, part: str) -> tuple[Any, ...]:
         if not isinstance(value, kind):
             raise InputError(f"is {value!r}; expected a {kind.__name__}", where=(singular, i))
     return tuple(values)
+
+
+def refuse_beside(key: str, *found: tuple[bool, str]) -> None:
+    """Refuse a value beside what does not go with it: whether each is there, with its words.
+
+    Parameters
+    ----------
+    key : of the value
+    found : what does not go with it
+
+    Raises
+    ------
+    InputError
+        For the first that is there.
+    """
+    for there, words in found:
+        if there:
+            raise InputError(f"is given, but {words}; expected one of both", where=(key,))

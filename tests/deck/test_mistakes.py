@@ -52,7 +52,7 @@ MISTAKES = {
         ":29: contact[0].fricton: unknown key; did you mean 'friction'? Known: name, between, nonmortar, mortar, "
         "plane, circle, profile, sphere, cylinder, cone, torus, surface, friction, shear_limit, adhesion, gap, "
         "interference, normal_compliance, tangential_compliance, coupling, side, "
-        "search, adjust, friction_axis, facets, wear, sliding, closure",
+        "search, adjust, friction_axis, facets, wear, sliding, closure, cohesion",
     ),
     "sides named twice": (
         'nonmortar = "arc"',

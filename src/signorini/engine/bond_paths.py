@@ -15,7 +15,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
-from signorini.engine.bond_rates import Course, Posed, bonds_of, course, left_shear, pose, stiffness
+from signorini.engine.bond_rates import BondCourse, Posed, bonds_of, course, left_shear, pose, stiffness
 from signorini.engine.energy import set_free
 from signorini.engine.increments import certified, leaving
 from signorini.engine.path_states import path_state, recovered, right_hand_side
@@ -93,7 +93,7 @@ def follow_bonds(part: StepPart, stops: PathSettings | None, tell: Callable[[flo
 
 
 def _along(
-    part: StepPart, found: Course, stops: PathSettings | None, tell: Callable[[float], None]
+    part: StepPart, found: BondCourse, stops: PathSettings | None, tell: Callable[[float], None]
 ) -> tuple[BondsPath, _Watch]:
     """A part as far as bonds stay on their lines; the arguments as of `follow_bonds`."""
     posed = found.posed
@@ -129,7 +129,7 @@ class _Watch:
     lines: Array
 
     @staticmethod
-    def of(found: Course) -> _Watch:
+    def of(found: BondCourse) -> _Watch:
         """On a way that bonds go."""
         return _Watch(posed=found.posed, pull=found.pull, lines=stiffness(found.posed))
 

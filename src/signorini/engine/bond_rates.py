@@ -27,7 +27,7 @@ from signorini.solution.state import LoadPoint, State
 _TRIALS = 100
 """Sets of bonds that soften which are tried at one load, at most: two or three are usual."""
 
-_TOGETHER = 20  # trials in which all bonds that belong elsewhere change at once, before one by one
+_TRIALS_TOGETHER = 20  # trials in which all bonds that belong elsewhere change at once, before one by one
 _AT_LIMIT = 1e-9  # of the strength, or of the largest opening so far: how near to it a bond is at its limit
 _CLOSED = 1e-10  # of the opening at which a bond is gone: less is none
 _ALIKE = 1e-6  # of the largest part in a motion: bonds that take the same part in it
@@ -111,7 +111,7 @@ def pose(prepared: Prepared, state: State, soft: BoolArray, driven: BoolArray, c
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Course:
+class BondCourse:
     """How bonds go on from a state.
 
     Attributes
@@ -133,7 +133,7 @@ def course(
     driven: BoolArray,
     sheared: BoolArray,
     codes: IntArray | None = None,
-) -> Course:
+) -> BondCourse:
     """How bonds go on from a state towards a load.
 
     Parameters
@@ -154,26 +154,26 @@ def course(
         b = right_hand_side(posed.prepared, replace(end, pull=posed.moved_on(change)))
         rates = _rates(posed, start, b - start.b, codes)
         if rates is None:
-            return Course(posed=posed, pull=change, breaking=none)
+            return BondCourse(posed=posed, pull=change, breaking=none)
         motion, force, stable = rates
         if not stable:
-            return Course(posed=posed, pull=change, breaking=_letting_go(posed, start, codes))
+            return BondCourse(posed=posed, pull=change, breaking=_letting_go(posed, start, codes))
         full, most = _STILL * float(np.abs(motion).max(initial=0.0)), _STILL * float(np.abs(force).max(initial=0.0))
         torn = posed.held & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most) & (force < -most)
         edge = bonds.damage * cohesion.opening
         torn |= posed.back & (state.gap >= (1.0 - _AT_LIMIT) * edge) & (motion > full)
         brittle = torn & (cohesion.opening == 0.0)
         if brittle.any():
-            return Course(posed=posed, pull=change, breaking=brittle)
+            return BondCourse(posed=posed, pull=change, breaking=brittle)
         closes = soft & (motion < -full)
         if not (torn | closes).any():
             change[0] -= np.where(posed.springs, stiffness(posed) * motion, 0.0)
-            return Course(posed=posed, pull=change, breaking=none)
-        if trial >= _TOGETHER:
+            return BondCourse(posed=posed, pull=change, breaking=none)
+        if trial >= _TRIALS_TOGETHER:
             first = np.arange(len(soft)) == int(np.argmax(torn | closes))
             torn, closes = torn & first, closes & first
         soft = (soft | torn) & ~closes
-    return Course(posed=posed, pull=change, breaking=soft)
+    return BondCourse(posed=posed, pull=change, breaking=soft)
 
 
 def left_shear(posed: Posed) -> BoolArray:

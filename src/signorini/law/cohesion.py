@@ -198,16 +198,3 @@ def bonded(
         most=frozen(most), opening=frozen(np.where(there, opening, 0.0)), sticks=frozen(there & sticks, np.bool_)
     )
     return np.where(there & (gap > -_TOUCHING * size), 0.0, gap), pairs
-
-
-def refuse_beside(found: tuple[tuple[bool, str], ...]) -> None:
-    """Refuse a bond beside what does not go with it, each with its words.
-
-    Raises
-    ------
-    InputError
-        With ``cohesion`` as its place.
-    """
-    for there, words in found:
-        if there:
-            raise InputError(f"is given, but {words}; expected one of both", where=("cohesion",))

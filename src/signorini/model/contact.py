@@ -10,10 +10,10 @@ from functools import cached_property
 from typing import Any, Literal
 
 from signorini.arrays import Array
-from signorini.checks import choice, number, text, vector, whole
+from signorini.checks import choice, number, refuse_beside, text, vector, whole
 from signorini.errors import InputError, Where
 from signorini.law.closure import Closure
-from signorini.law.cohesion import Cohesion, refuse_beside
+from signorini.law.cohesion import Cohesion
 from signorini.law.friction import Coulomb, FrictionLaw
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
@@ -160,31 +160,27 @@ class Contact:
         """What lies between sides that neither wear nor slide far, and closes by one law."""
         if not isinstance(closure, Closure):
             raise InputError(f"is {closure!r}; expected a Closure", where=("closure",))
-        for found, words in (
+        refuse_beside(
+            "closure",
             (self.tied, "the contact is tied"),
             (self.normal_compliance != 0.0, "normal_compliance too"),
             (self.wear is not None, "the contact wears"),
             (self.sliding == "finite", "the sides slide far"),
-        ):
-            if found:
-                raise InputError(f"is given, but {words}; expected one of both", where=("closure",))
+        )
 
     def _check_cohesion(self, cohesion: Cohesion) -> None:
         """What is bonded neither wears nor slides far, and rubs by Coulomb's law alone once the bond is gone."""
         if not isinstance(cohesion, Cohesion):
             raise InputError(f"is {cohesion!r}; expected a Cohesion", where=("cohesion",))
+        other = not self.coulomb or isinstance(self.friction, tuple)
         refuse_beside(
-            (
-                (self.tied, "the contact is tied"),
-                (self.closure is not None, "a closure too"),
-                (self.wear is not None, "the contact wears"),
-                (self.sliding == "finite", "the sides slide far"),
-                (self.adhesion != 0.0 or self.shear_limit is not None, "adhesion or a shear limit too"),
-                (
-                    not self.coulomb or isinstance(self.friction, tuple),
-                    "friction is not Coulomb's with one coefficient",
-                ),
-            )
+            "cohesion",
+            (self.tied, "the contact is tied"),
+            (self.closure is not None, "a closure too"),
+            (self.wear is not None, "the contact wears"),
+            (self.sliding == "finite", "the sides slide far"),
+            (self.adhesion != 0.0 or self.shear_limit is not None, "adhesion or a shear limit too"),
+            (other, "friction is not Coulomb's with one coefficient"),
         )
 
     def _check_sliding(self) -> None:
