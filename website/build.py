@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import subprocess
@@ -10,6 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from signorini.deck.schema import deck_schema
 from website import reference
 
 ROOT = Path(__file__).parents[1]
@@ -50,6 +52,7 @@ def collect(folder: Path) -> dict[str, list[str]]:
     (folder / "glossary.md").write_text(glossary((ROOT / "docs" / "design.md").read_text()))
     for page in folder.rglob("*.md"):
         page.write_text(inside(page.read_text()))
+    (folder / "examples" / "deck.schema.json").write_text(json.dumps(deck_schema(), indent=1))
     (folder / "reference").mkdir()
     for name, text in reference.pages().items():
         (folder / "reference" / name).write_text(text)

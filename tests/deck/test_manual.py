@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from signorini.deck import DeckError, read
-from signorini.deck.load import _KEYS
+from signorini.deck.load import KEYS
 from signorini.deck.meshes import GENERATORS
-from signorini.deck.tables import _CONTACT_KEYS, _OBSTACLE_KEYS
+from signorini.deck.tables import CONTACT_KEYS, OBSTACLE_KEYS
 from signorini.fatigue import Crossland, FatemiSocie
 from signorini.model.body import Body
 from signorini.model.conditions import Foundation, Load, Support
@@ -40,8 +40,8 @@ def test_the_message_is_the_real_one(tmp_path: Path) -> None:
 
 
 def test_every_key_is_explained() -> None:
-    keys = {*_CONTACT_KEYS, *_OBSTACLE_KEYS, *GENERATORS, "generator", "file"} | {
-        key for key in _KEYS if f"[{key}" not in MANUAL
+    keys = {*CONTACT_KEYS, *OBSTACLE_KEYS, *GENERATORS, "generator", "file"} | {
+        key for key in KEYS if f"[{key}" not in MANUAL
     }
     keys |= {
         field.name

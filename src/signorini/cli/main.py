@@ -23,6 +23,7 @@ _COMMANDS = {
     "signorini.cli.deck_commands": ("run", "modes", "check", "convert"),
     "signorini.cli.result_commands": ("diff", "plot", "report"),
     "signorini.cli.fatigue_command": ("fatigue",),
+    "signorini.cli.word_commands": ("schema", "explain"),
     "signorini.cli.suite_commands": ("verify", "bench"),
 }
 

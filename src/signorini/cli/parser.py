@@ -68,6 +68,12 @@ def make_parser() -> argparse.ArgumentParser:
     report.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
     report.add_argument("-o", dest="file", metavar="FILE", help="HTML file (default: report.html in DIR)")
 
+    commands.add_parser("schema", parents=[shared], help="print the JSON schema of TOML decks, for editors")
+    explain = commands.add_parser("explain", parents=[shared], help="say what a key or a code means")
+    explain.add_argument(
+        "word", metavar="WORD", help="a key of decks, with its table or without, a status, an exit code"
+    )
+
     _add_suites(commands, [shared])
     return parser
 

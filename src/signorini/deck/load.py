@@ -22,7 +22,7 @@ from signorini.model.modes import ModesRequest
 from signorini.settings import SolverSettings
 from signorini.sources import Reach
 
-_KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "solver", "modes", *FIELDS)
+KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "solver", "modes", *FIELDS)
 
 
 def read(
@@ -81,7 +81,7 @@ def load_deck(
 
 
 def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach: Reach) -> Deck:
-    check_keys(data, (), known=_KEYS)
+    check_keys(data, (), known=KEYS)
     for key in ("title", "units"):
         if not isinstance(data.get(key, ""), str):
             raise InputError(f"is {data[key]!r}; expected text", where=(key,))

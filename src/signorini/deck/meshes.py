@@ -25,6 +25,9 @@ GENERATORS: Mapping[str, Callable[..., Mesh]] = {
     "box": box,
 }
 
+FILE_KEYS = ("file", "name")
+"""Of a mesh that is read."""
+
 
 def deck_mesh(value: Any, reach: Reach) -> Mesh:
     """The mesh of ``[mesh]``, or of all ``[[mesh]]`` joined: names become "name.boundary".
@@ -104,7 +107,7 @@ def _one(data: dict[str, Any], where: Where, reach: Reach) -> Mesh:
 def _from_file(data: Mapping[str, Any], reach: Reach) -> Mesh:
     from signorini.meshing.read import read_mesh  # brings every format of meshio with it
 
-    check_keys(data, ("mesh",), known=["file", "name"])
+    check_keys(data, ("mesh",), known=FILE_KEYS)
     name = text(data["file"], ("mesh", "file"))
     try:
         return read_mesh(reach.file(name))

@@ -45,7 +45,7 @@ OBSTACLES = {
 """Rigid shapes by their keys."""
 
 _SIDES = ("nonmortar", "mortar")
-_CONTACT_KEYS = (
+CONTACT_KEYS = (
     "name",
     "between",
     *_SIDES,
@@ -53,7 +53,7 @@ _CONTACT_KEYS = (
     *(key for key in inspect.signature(Contact).parameters if key not in ("name", *_SIDES)),
 )
 _VARYING = ("pressure", "temperature", "gap", "interference")
-_OBSTACLE_KEYS = ("name", *OBSTACLES, "u", "rotation", "force", "moment", "point")
+OBSTACLE_KEYS = ("name", *OBSTACLES, "u", "rotation", "force", "moment", "point")
 
 
 def deck_materials(data: Mapping[str, Any]) -> dict[str, Material]:
@@ -99,6 +99,18 @@ FIELDS = {
 }
 """Arrays of tables, and the fields of the model that they give."""
 
+KINDS: Mapping[str, Callable[..., Any]] = {
+    "support": Support,
+    "foundation": Foundation,
+    "load": Load,
+    "rigid_body": RigidBody,
+    "equation": Equation,
+    "cyclic_symmetry": CyclicSymmetry,
+    "bolt": Bolt,
+    "step": Step,
+}
+"""Arrays of tables whose keys are the parameters of a class."""
+
 
 def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, list[Any]]:
     """Supports, loads, contacts, steps: fields of the model, without bodies, those that the deck has.
@@ -109,30 +121,20 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
     reach : files that it may name
     mesh : its mesh, whose boundaries may be rigid shapes
     """
-    kinds: dict[str, Callable[..., Any]] = {
-        "support": Support,
-        "foundation": Foundation,
-        "load": Load,
-        "rigid_body": RigidBody,
-        "equation": Equation,
-        "cyclic_symmetry": CyclicSymmetry,
-        "bolt": Bolt,
-        "step": Step,
-    }
     parts: dict[str, list[Any]] = {}
     for key, field in FIELDS.items():
         if key == "body":
             continue  # their materials are checked before a mesh is read
         for i, entry in enumerate(tables(data, key)):
             where: Where = (key, i)
-            if key in kinds:
+            if key in KINDS:
                 if key in ("support", "load"):
                     _refuse_place(entry.get("on", ""), where)
                     entry = _varied(entry, where, reach, mesh.points.shape[1])
                 if key == "bolt":
                     made_of = ("plane", "halves")  # the mesh has that section
                     entry = {own: value for own, value in entry.items() if own not in made_of}
-                made = make(kinds[key], entry, where)
+                made = make(KINDS[key], entry, where)
             elif key == "fatigue":
                 made = deck_fatigue(entry, where)
             else:
@@ -214,7 +216,7 @@ def _refuse_body(mesh: Mesh, name: str) -> None:
 
 
 def _obstacle(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> Rigid:
-    check_keys(entry, where, known=_OBSTACLE_KEYS, needed=["name"])
+    check_keys(entry, where, known=OBSTACLE_KEYS, needed=["name"])
     given = dict(entry)
     shapes = [key for key in OBSTACLES if key in given]
     if len(shapes) != 1:
@@ -241,7 +243,7 @@ def _sided(entry: dict[str, Any], where: Where) -> dict[str, Any]:
 
 
 def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> Contact:
-    check_keys(entry, where, known=_CONTACT_KEYS, needed=[] if "between" in entry else ["nonmortar"])
+    check_keys(entry, where, known=CONTACT_KEYS, needed=[] if "between" in entry else ["nonmortar"])
     given = _sided(entry, where)
     if isinstance(given.get("friction"), dict):
         given["friction"] = _friction(given["friction"], (*where, "friction"))
