@@ -144,7 +144,7 @@ MISTAKES = {
         "force = [0.0, -78.0]",
         "force = [0.0, -78.0]\npressure = 3.0",
         ":22: load[0]: has force and pressure; expected exactly one of force, nodal_forces, traction, pressure, "
-        "bearing, body_force, gravity, centrifugal, temperature",
+        "bearing, body_force, gravity, centrifugal, temperature, torque",
     ),
     "no node there": (
         'on = "cut"',

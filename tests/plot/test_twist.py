@@ -12,6 +12,7 @@ from signorini.plot.contact import draw_contacts
 from signorini.plot.field import draw_stress
 from signorini.plot.history import draw_history
 from signorini.plot.picture_data import PictureData
+from signorini.report.curves import forces, hysteresis, reactions
 from signorini.report.sketch import sketch_contact
 
 
@@ -31,6 +32,8 @@ def test_both_tractions_are_drawn(twisted):
     assert "torque over the largest radius" in labels(draw_history(data))
     assert "friction around the axis" in sketch_contact(twisted.last.contacts[0])
     assert draw_stress(data).axes
+    titles = {chart.title for chart in (*hysteresis(data), *forces(data), *reactions(data))}
+    assert {"fit: torque over the largest radius over slip", "torque of held", "fit: forces"} <= titles
     with pytest.raises(sg.InputError, match="not around an axis"):
         film_of(twisted)
 

@@ -29,6 +29,8 @@ def profiles(data: PictureData) -> Iterator[ChartData]:
             lines = [Line(name="pressure", x=curve.s, y=curve.pressure, colour=0)]
             if curve.friction > 0:
                 lines.append(Line(name="friction", x=curve.s, y=curve.traction, colour=1))
+                if curve.hoop is not None:
+                    lines.append(Line(name="friction around the axis", x=curve.s, y=curve.hoop, colour=2))
             if curve.has_bound:
                 bound, name = curve.friction * curve.pressure, f"\u00b1 {curve.friction:g} times the pressure"
                 lines += [Line(name=name, x=curve.s, y=bound, colour=1, dashed=True)]
@@ -52,6 +54,8 @@ def forces(data: PictureData) -> Iterator[ChartData]:
         lines = [Line(name="normal force", x=found.load, y=np.linalg.norm(found.normal, axis=1), colour=0)]
         if np.abs(found.friction).max() > 0.0:
             lines.append(Line(name=f"friction force {words}", x=found.load, y=found.friction @ along, colour=1))
+        if data.model.twists:
+            lines.append(Line(name="torque over the largest radius", x=found.load, y=found.friction[:, 2], colour=2))
         load = "load: step k goes from k - 1 to k"
         yield ChartData(title=f"{contact.label}: forces", x=load, y=_force(data), groups={"": lines})
         if found.dissipation.max() > 0.0:
@@ -70,16 +74,21 @@ def hysteresis(data: PictureData) -> Iterator[ChartData]:
         found = contact_forces(data.history, i)
         along, _ = friction_direction(found, solid=False)
         force = (found.friction @ along)[-len(instants) :]
-        slip = np.array([_mean(instant.contacts[i].slip, instant.contacts[i].area) for instant in instants])
-        if len(instants) < 3 or np.ptp(slip) == 0.0 or np.abs(force).max() == 0.0:
-            continue
-        loop = [Line(name="friction force", x=slip, y=force, colour=1)]
-        words = f"{contact.label}: friction force over slip"
-        yield ChartData(title=words, x=f"mean slip, {data.units.length}", y=_force(data), groups={"": loop})
+        slips = np.array([_mean(instant.contacts[i].slip, instant.contacts[i].area) for instant in instants])
+        ways = [("friction force", force, slips[:, 0])]
+        if data.model.twists:
+            ways.append(("torque over the largest radius", found.friction[-len(instants) :, 2], slips[:, 1]))
+        for name, values, slip in ways:
+            if len(instants) < 3 or np.ptp(slip) == 0.0 or np.abs(values).max() == 0.0:
+                continue
+            loop = [Line(name=name, x=slip, y=values, colour=1)]
+            words = f"{contact.label}: {name} over slip"
+            yield ChartData(title=words, x=f"mean slip, {data.units.length}", y=_force(data), groups={"": loop})
 
 
-def _mean(values: Array, weights: Array) -> float:
-    return float(values @ weights / (weights.sum() or 1.0))
+def _mean(values: Array, weights: Array) -> Array:
+    """(1 or 2,) Of values (n,) or (n, 2)."""
+    return np.atleast_1d(values.T @ weights / (weights.sum() or 1.0))
 
 
 def reactions(data: PictureData) -> Iterator[ChartData]:
@@ -91,14 +100,21 @@ def reactions(data: PictureData) -> Iterator[ChartData]:
     names = list(dict.fromkeys(name for step in history.steps for name in step.reactions))
     found = {
         name: np.array(
-            [np.zeros(data.model.dimension), *(_reaction(step.reactions.get(name), data) for step in history.steps)]
+            [np.zeros(data.model.components), *(_reaction(step.reactions.get(name), data) for step in history.steps)]
         )
         for name in names
     }
+    if data.model.twists:
+        for name, values in found.items():
+            if values[:, 2].any():
+                torque = [Line(name=name, x=steps, y=values[:, 2], colour=2)]
+                words = f"torque of {name}"
+                yield ChartData(title=words, x="ends of steps", y=f"torque, {data.units.work}", groups={"": torque})
+        found = {name: values[:, :2] for name, values in found.items()}
     largest = max((float(np.abs(values).max()) for values in found.values()), default=0.0)
     for name, values in found.items():
         lines = [
-            Line(name=f"{name}, {'xyz'[k]}", x=steps, y=values[:, k], colour=k)
+            Line(name=f"{name}, {data.model.axes[k]}", x=steps, y=values[:, k], colour=k)
             for k in range(values.shape[1])
             if np.abs(values[:, k]).max() > _MIN_SHARE * largest
         ]
@@ -108,7 +124,7 @@ def reactions(data: PictureData) -> Iterator[ChartData]:
 
 def _reaction(force: Array | None, data: PictureData) -> Array:
     """The force of a support, without the moments of one on a rigid body; nothing where it has let go."""
-    return np.zeros(data.model.dimension) if force is None else np.asarray(force)[: data.model.dimension]
+    return np.zeros(data.model.components) if force is None else np.asarray(force)[: data.model.components]
 
 
 def _force(data: PictureData) -> str:
