@@ -101,23 +101,6 @@ def tangents(normals: Array, mirrored: BoolArray, fibres: Array) -> tuple[Array,
     return axes + 0.0, still
 
 
-def with_hoop(normals: Array, axes: Array) -> tuple[Array, Array]:
-    """Normals (k, 3) and tangents (k, 2, 3) of bodies that twist: second tangents, and third components, go round.
-
-    Parameters
-    ----------
-    normals, axes : (k, 2) and (k, 1, 2) of the meridian
-
-    Examples
-    --------
-    >>> with_hoop(np.array([[0.0, 1.0]]), np.array([[[1.0, 0.0]]]))[1].tolist()
-    [[[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]]
-    """
-    first = np.pad(axes, ((0, 0), (0, 0), (0, 1)))
-    hoop = np.broadcast_to(np.eye(3)[2], first.shape)
-    return np.pad(normals, ((0, 0), (0, 1))), np.concatenate([first, hoop], axis=1)
-
-
 def along_tangents(ratio: tuple[float, float], axis: tuple[float, float, float] | None, axes: Array) -> Array:
     """What belongs to the direction of an axis and across it as it belongs to the tangents, (k, d - 1).
 

@@ -17,7 +17,8 @@ from signorini.fem.obstacles import carried, placed
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.coupling import along
-from signorini.interface.frames import LEAST_SINE, along_tangents, tangents, with_hoop
+from signorini.interface.frames import LEAST_SINE, along_tangents, tangents
+from signorini.interface.hoop import hoop_rows, with_hoop
 from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
 from signorini.law.bound import Bound
@@ -263,8 +264,9 @@ def _relative_rows(
         slid = _with_obstacles(space, model, carrier, _sliding_rows(sliding, normals, axes[:, k]))
         rows.append(sp.diags_array(np.where(still[:, k], 0.0, 1.0)) @ slid)
     if model.twists:
-        none = sp.csr_array(closing[0].shape)
-        rows.append(_with_obstacles(space, model, carrier, (none, none, along(closing, normals))))
+        nothing, radii = sp.csr_array(closing[0].shape), space.mesh.points[:, 0]
+        around = per_area @ sp.vstack([none, *(hoop_rows(part.coupling, part.own, radii) for part in parts)])
+        rows.append(_with_obstacles(space, model, carrier, (nothing, nothing, around)))
     B = sp.csr_array(sp.vstack(rows))
     B.sum_duplicates()  # entries in order from the start: sums do not depend on who has looked at them before
     return B

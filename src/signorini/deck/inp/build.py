@@ -34,7 +34,7 @@ from signorini.deck.inp.syntax import flatten, read_cards
 from signorini.deck.tables import FIELDS
 from signorini.errors import InputError, Where
 from signorini.model.body import Body
-from signorini.model.kind import Kind
+from signorini.model.kind import WITHOUT_THICKNESS, Kind
 from signorini.model.material import Orthotropic
 from signorini.model.mesh import NODES_PER_CELL, Mesh
 from signorini.model.model import Model
@@ -212,7 +212,7 @@ def _mesh(known: Known) -> Mesh:
 
 
 def _thickness(section: Section, kind: Kind) -> float:
-    return 1.0 if kind in ("axisymmetric", "3d") else section.thickness  # CalculiX: the angle that it cuts out
+    return 1.0 if kind in WITHOUT_THICKNESS else section.thickness  # CalculiX: the angle that it cuts out
 
 
 def _body(section: Section, grid: DeckGrid, usual: float, initial: Array) -> Body:

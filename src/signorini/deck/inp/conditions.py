@@ -25,6 +25,7 @@ from signorini.deck.inp.sets import unique_label
 from signorini.deck.inp.steps import DeckStep
 from signorini.model.conditions import Load, Support
 from signorini.model.links import Equation, directions
+from signorini.model.varying import Formula
 
 _MAX_LOADS = 1000  # more would be a field, which takes memory for each of them
 _OBLIQUE_NOTE = (
@@ -137,21 +138,21 @@ def _apart(
         own = packed.nodes == item.reference
         rest &= ~own
         for axis, value in zip(packed.axes[own].tolist(), pattern.values[own].tolist(), strict=True):
-            motion = rigid_motion(axis, known.dimension)
+            motion = rigid_motion(axis, known.grid.kind)
             if motion is not None:
                 refuse_turned(pattern.card, item.reference, known)
                 found.append((item, motion, value))
     return (replace(pattern, slots=pattern.slots[rest], values=pattern.values[rest]) if found else pattern), found
 
 
-def _only(which: int, value: float, count: int, rest: float | None = None) -> tuple[float | None, ...]:
+def _only(which: int, value: Any, count: int, rest: float | None = None) -> tuple[Any, ...]:
     """A value in one of so many directions."""
     return tuple(value if i == which else rest for i in range(count))
 
 
 def _supports(courses: Courses, conditions: Conditions, known: Known) -> None:
     """Supports at rest hold all directions of a place at once; those that move are one a direction."""
-    dimension, words = known.dimension, directions(known.dimension)
+    components, words = len(known.motions), directions(known.dimension)
     resting: dict[tuple[str, tuple[Hold, ...]], list[Pattern]] = {}
     for whole in courses.displacement.patterns():
         pattern, rigid = _apart(whole, courses.rigid, known)
@@ -165,7 +166,7 @@ def _supports(courses: Courses, conditions: Conditions, known: Known) -> None:
             resting.setdefault((pattern.label, pattern.holds), []).append(pattern)
     for (label, _), patterns in resting.items():
         slots = distinct(np.concatenate([pattern.slots for pattern in patterns]))
-        nodes, held = _by_node(slots, np.ones(len(slots)), dimension)
+        nodes, held = _by_node(slots, np.ones(len(slots)), components)
         for which in np.unique(held, axis=0)[::-1]:
             on = known.places.at_nodes(nodes[(held == which).all(axis=1)], label)
             conditions.add_support(patterns[0], on=on, u=tuple(0.0 if part else None for part in which), name=label)
@@ -212,18 +213,19 @@ def _moving(pattern: Pattern, conditions: Conditions, known: Known) -> None:
     """Supports of nodes that are moved."""
     for value, slots in _by_value(pattern):
         packed = NodeSlots(slots)
-        for axis in range(known.dimension):
+        for direction, axis in known.motions.items():
             nodes = packed.nodes[packed.axes == axis]
             if len(nodes):
-                on, u = known.places.at_nodes(nodes, pattern.label), _only(axis, value, known.dimension)
-                conditions.add_support(pattern, on=on, u=u, name=f"{pattern.label} u{axis + 1}")
+                moved = Formula(f"{value!r}*x") if direction > known.dimension else value  # an angle times the radius
+                on, u = known.places.at_nodes(nodes, pattern.label), _only(axis, moved, len(known.motions))
+                conditions.add_support(pattern, on=on, u=u, name=f"{pattern.label} u{direction}")
 
 
-def _by_node(slots: IntArray, values: Array, dimension: int) -> tuple[IntArray, Array]:
-    """Sorted nodes of slots, and (nodes, dimension) the values in all directions, 0 where there is none."""
+def _by_node(slots: IntArray, values: Array, components: int) -> tuple[IntArray, Array]:
+    """Sorted nodes of slots, and (nodes, components) the values in all directions, 0 where there is none."""
     packed = NodeSlots(slots)
     nodes, where = np.unique(packed.nodes, return_inverse=True)
-    table = np.zeros((len(nodes), dimension))
+    table = np.zeros((len(nodes), components))
     table[where, packed.axes] = values
     return nodes, table
 
@@ -241,7 +243,7 @@ def _hold_idle(rigid: Sequence[DeckRigid], conditions: Conditions, dimension: in
 
 
 def _forces(courses: Courses, conditions: Conditions, known: Known) -> None:
-    dimension, words = known.dimension, directions(known.dimension)
+    components, words = len(known.motions), directions(known.dimension)
     for whole in courses.force.patterns():
         pattern, rigid = _apart(whole, courses.rigid, known)
         for item, motion, value in rigid:
@@ -253,7 +255,10 @@ def _forces(courses: Courses, conditions: Conditions, known: Known) -> None:
             if value:
                 name = item.body.name
                 conditions.add_load(pattern, on=name, force=_only(motion, value, len(words), 0.0), name=name)
-        nodes, forces = _by_node(pattern.slots, pattern.values, dimension)
+        nodes, forces = _by_node(pattern.slots, pattern.values, components)
+        if known.twists:
+            _refuse_torque_on_axis(pattern, nodes, forces, known)
+            forces[:, 2] /= np.maximum(known.radii(nodes), 1e-300)  # torques: nodes of the axis bear none
         if known.axes.own(nodes).any():
             forces = np.einsum("ni,nij->nj", forces, known.axes.of(nodes))
         if not forces.any():
@@ -264,6 +269,13 @@ def _forces(courses: Courses, conditions: Conditions, known: Known) -> None:
             conditions.add_load(pattern, on=on, force=total, name=pattern.label)
         else:
             conditions.add_load(pattern, on=on, nodal_forces=forces, name=pattern.label)
+
+
+def _refuse_torque_on_axis(pattern: Pattern, nodes: IntArray, torques: Array, known: Known) -> None:
+    wrong = nodes[(torques[:, 2] != 0.0) & (known.radii(nodes) <= 0.0)]
+    if len(wrong):
+        number = known.nodes.numbering.labels[wrong[0]]
+        raise pattern.card.error(f"is a torque on node {number}, which is on the axis; expected one with a radius")
 
 
 def _by_value(pattern: Pattern) -> Iterator[tuple[float, IntArray]]:

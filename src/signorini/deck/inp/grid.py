@@ -18,7 +18,7 @@ from signorini.deck.inp.numbers import Numbering, number_table, record_table
 from signorini.model.kind import Kind
 from signorini.model.mesh import CORNERS, NODES_PER_CELL
 
-_PLANES = {"CPE": "plane strain", "CPS": "plane stress", "CAX": "axisymmetric"}
+_PLANES = {"CPE": "plane strain", "CPS": "plane stress", "CAX": "axisymmetric", "CGAX": "axisymmetric twist"}
 _PLANE = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8"}
 _SOLID = {"4": "tetra", "6": "wedge", "8": "hexahedron", "10": "tetra10", "15": "wedge15", "20": "hexahedron20"}
 _LINES = {"line": 2, "line3": 3}  # to their nodes
@@ -107,16 +107,17 @@ def element_type(card: Card) -> ElementType:
     if name.rstrip("R") in _SHAPES:
         return ElementType(name=name, family=_SHAPES[name.rstrip("R")], kind=None)
     solid = name.startswith("C3D")
-    size = name[3:].rstrip("RIHMT")
-    variant = name[3 + len(size) :]
+    word = next((word for word in _PLANES if name.startswith(word)), name[:3])
+    size = name[len(word) :].rstrip("RIHMT")
+    variant = name[len(word) + len(size) :]
     family = (_SOLID if solid else _PLANE).get(size)
-    if (solid or name[:3] in _PLANES) and family is not None and variant in _VARIANTS:
+    if (solid or word in _PLANES) and family is not None and variant in _VARIANTS:
         if variant.startswith("I") and family not in ("quad", "hexahedron"):
             raise card.error(f"TYPE={name} is not supported; incompatible modes are for 4 nodes, in space 8")
         note = f"{name}: {_VARIANTS[variant]}" if _VARIANTS[variant] else ""
         if family == "wedge15":
             note = note or f"{name}: integrated with 21 points, where CalculiX and Abaqus take 9"
-        kind = cast(Kind, "3d" if solid else _PLANES[name[:3]])
+        kind = cast(Kind, "3d" if solid else _PLANES[word])
         return ElementType(name=name, family=family, kind=kind, incompatible=variant.startswith("I"), note=note)
     raise unknown_type(card)
 
@@ -124,8 +125,8 @@ def element_type(card: Card) -> ElementType:
 def unknown_type(card: Card) -> DeckError:
     """The error of an ``*ELEMENT`` keyword whose elements no model has."""
     return card.error(
-        f"TYPE={card.get('TYPE')} is not supported; expected CPE, CPS or CAX with 3, 4, 6 or 8 nodes, or C3D with 4, "
-        "6, 8, 10, 15 or 20 (variants R, I, H, M)"
+        f"TYPE={card.get('TYPE')} is not supported; expected CPE, CPS, CAX or CGAX with 3, 4, 6 or 8 nodes, or C3D "
+        "with 4, 6, 8, 10, 15 or 20 (variants R, I, H, M)"
     )
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import Array, IntArray
 from signorini.deck.inp.amplitudes import Amplitude, make_amplitudes
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.grid import DeckGrid, make_grid
@@ -18,6 +18,7 @@ from signorini.deck.inp.refusals import Refusals
 from signorini.deck.inp.sets import Sets, make_sets, unique_label
 from signorini.deck.inp.surfaces import ElementFaces, Surfaces, make_surfaces
 from signorini.deck.inp.transforms import NodeAxes, make_node_axes
+from signorini.model.kind import TWIST
 
 
 class Places:
@@ -101,6 +102,25 @@ class Known:
     def dimension(self) -> int:
         """Directions of the model's space."""
         return self.grid.dimension
+
+    @property
+    def twists(self) -> bool:
+        """Whether bodies turn about the axis: direction 5 is an angle then."""
+        return self.grid.kind == TWIST
+
+    @property
+    def motions(self) -> Mapping[int, int]:
+        """Directions of decks, from 1, and which component of a displacement each is."""
+        return {1: 0, 2: 1, 5: 2} if self.twists else {i + 1: i for i in range(self.dimension)}
+
+    @property
+    def spelled(self) -> str:
+        """The directions in words."""
+        return "1, 2 or 5" if self.twists else f"1 to {self.dimension}"
+
+    def radii(self, nodes: IntArray) -> Array:
+        """(k,) Of nodes (k,), length."""
+        return np.asarray(self.grid.points[nodes, 0])
 
 
 def make_known(cards: Sequence[Card], outside: Sequence[Card], refusals: Refusals) -> Known:

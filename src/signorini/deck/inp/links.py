@@ -14,6 +14,7 @@ from signorini.deck.inp.card import Card, Row
 from signorini.deck.inp.grid import nodes_of
 from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.known import Known
+from signorini.model.kind import TWIST, Kind
 from signorini.model.links import AXES, Equation, RigidBody, Term, directions
 
 SLOTS_PER_NODE = 6
@@ -21,6 +22,7 @@ SLOTS_PER_NODE = 6
 
 _MAX_TERMS = 100_000  # of an equation times its nodes: each is a row of numbers in the model
 _PLANE_MOTIONS = {0: 0, 1: 1, 5: 2}  # of the six directions those of a plane model, as `directions` counts them
+_TWISTING_MOTIONS = {0: 0, 1: 1, 4: 2}  # of elements that twist: 5 goes around the axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,13 +106,15 @@ def rigid_slots(rigid: Sequence[DeckRigid], nodes: IntArray, axes: Sequence[int]
     return np.concatenate(slots), rest
 
 
-def rigid_motion(axis: int, dimension: int) -> int | None:
+def rigid_motion(axis: int, kind: Kind) -> int | None:
     """Number of the displacement or rotation of a rigid body in a direction from 0, None where the plane has none.
 
-    >>> rigid_motion(5, 2), rigid_motion(5, 3), rigid_motion(2, 2)
+    >>> rigid_motion(5, "plane strain"), rigid_motion(5, "3d"), rigid_motion(2, "axisymmetric")
     (2, 5, None)
     """
-    return axis if dimension == 3 else _PLANE_MOTIONS.get(axis)
+    if kind == "3d":
+        return axis
+    return (_TWISTING_MOTIONS if kind == TWIST else _PLANE_MOTIONS).get(axis)
 
 
 def make_rigid_bodies(cards: Sequence[Card], known: Known) -> list[DeckRigid]:
@@ -231,7 +235,7 @@ def _motions(members: IntArray, axis: int, known: Known, rigid: Sequence[DeckRig
     slots, rest = rigid_slots(rigid, members, [axis])
     if len(slots) and len(members) == 1:
         packed = NodeSlots(slots[:1])
-        motion = rigid_motion(int(packed.axes[0]), known.dimension)
+        motion = rigid_motion(int(packed.axes[0]), known.grid.kind)
         if motion is None:
             raise row.error(f"*EQUATION: direction {axis} is not one of a plane model")
         refuse_turned(row, int(packed.nodes[0]), known)
@@ -316,8 +320,10 @@ def _couplings(
         members = surface.nodes[surface.nodes != reference]
         if not len(members):
             raise card.error(f"surface '{surface.name}' holds no node but the reference node")
-        coupled = _directions(kinematic, known.dimension)
-        whole = len(coupled) == known.dimension
+        coupled = _directions(kinematic, known)
+        whole = len(coupled) == len(known.motions)
+        if not whole and known.twists:
+            raise card.error("couples some directions of elements that twist; expected 1, 2 and 5")
         nodes = distinct(np.append(members, reference)) if whole else np.array([reference])
         body = rigid_body(surface.name, f"coupling {surface.name}", nodes, reference, known, bodies)
         idle: tuple[int, ...] = ()
@@ -345,18 +351,18 @@ def _pairs(cards: Sequence[Card]) -> Iterator[tuple[Card, Card]]:
             raise open_.error("expected *KINEMATIC behind it")
 
 
-def _directions(card: Card, dimension: int) -> list[int]:
+def _directions(card: Card, known: Known) -> list[int]:
     """Coupled displacements from 0: data lines are ranges of 1 to 6, whose rotations say nothing; all without lines."""
     card.refuse_unknown(())
-    found: set[int] = set() if card.has_data else set(range(dimension))
+    found: set[int] = set() if card.has_data else set(known.motions.values())
     for row in card.rows():
         first = row.whole(0, "a direction")
         last = row.whole(1, "the last direction", first)
         if not 1 <= first <= last <= 6:
-            raise row.error(f"*KINEMATIC: directions {first} to {last}; expected 1 to {dimension}")
-        found |= {axis - 1 for axis in range(first, last + 1) if axis <= dimension}
+            raise row.error(f"*KINEMATIC: directions {first} to {last}; expected {known.spelled}")
+        found |= {known.motions[axis] for axis in range(first, last + 1) if axis in known.motions}
     if not found:
-        raise card.error(f"couples no displacement; expected directions of 1 to {dimension}")
+        raise card.error(f"couples no displacement; expected directions of {known.spelled}")
     return sorted(found)
 
 

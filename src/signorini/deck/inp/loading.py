@@ -19,6 +19,7 @@ from signorini.deck.inp.known import Known
 from signorini.deck.inp.links import SLOTS_PER_NODE, DeckRigid, NodeSlots, rigid_motion, rigid_slots
 from signorini.deck.inp.materials import Section
 from signorini.deck.inp.steps import DeckStep
+from signorini.model.kind import revolves
 
 
 def read_dload(card: Card, known: Known, courses: Courses) -> None:
@@ -82,12 +83,14 @@ def _gravity(row: Row, known: Known) -> tuple[float, dict[str, Any]]:
         raise row.error("*DLOAD: gravity has no direction")
     if direction[2] and known.dimension == 2:
         raise row.error("*DLOAD: gravity leaves the plane of the model")
-    return acceleration, {"direction": tuple(float(part / size) for part in direction[: known.dimension])}
+    return acceleration, {"direction": tuple(float(part / size) for part in direction[: len(known.motions)])}
 
 
 def _force_along(axis: int, row: Row, known: Known) -> tuple[float, dict[str, Any]]:
     """A force per volume along one of the axes."""
-    return row.number(2, "the force per volume"), {"direction": tuple(float(i == axis) for i in range(known.dimension))}
+    return row.number(2, "the force per volume"), {
+        "direction": tuple(float(i == axis) for i in range(len(known.motions)))
+    }
 
 
 def _rotation(row: Row, known: Known) -> tuple[float, dict[str, Any]]:
@@ -102,7 +105,7 @@ def _rotation(row: Row, known: Known) -> tuple[float, dict[str, Any]]:
             raise row.error("*DLOAD: the axis of rotation has no direction")
         size = float(np.linalg.norm(axis))
         return square, {"direction": tuple(part / size for part in axis), "centre": (x, y, z)}
-    axisymmetric = known.grid.kind == "axisymmetric"
+    axisymmetric = revolves(known.grid.kind)
     if along != ([1] if axisymmetric else [2]) or (axisymmetric and x):
         expected = "the y axis, of symmetry" if axisymmetric else "across the plane, like 0, 0, 1"
         raise row.error(f"*DLOAD: the axis of rotation is along {axis}; expected {expected}")
@@ -253,9 +256,9 @@ def _boundary(card: Card, known: Known, courses: Courses) -> None:
         label, nodes = _nodes(row, known, "single nodes")
         axes, value = _held(row, known.dimension)
         slots, rest = rigid_slots(courses.rigid, nodes, axes)
-        if len(rest) and axes[-1] > known.dimension and value != 0.0:
-            raise row.error(f"*BOUNDARY: direction {axes[-1]} moves by {value:g}; expected 1 to {known.dimension}")
-        own = [NodeSlots.pack(rest, axis - 1) for axis in axes if axis <= known.dimension]
+        if len(rest) and value != 0.0 and not known.motions.keys() >= set(axes):
+            raise row.error(f"*BOUNDARY: direction {axes[-1]} moves by {value:g}; expected {known.spelled}")
+        own = [NodeSlots.pack(rest, known.motions[axis]) for axis in axes if axis in known.motions]
         slots = np.concatenate([slots, *own])
         if not fixed:
             courses.displacement.put(slots, value, label, card.at(row), amplitude, adds=False)
@@ -292,12 +295,12 @@ def _cload(card: Card, known: Known, courses: Courses) -> None:
         axis = row.whole(1, "a direction")
         value = row.number(2, "the force")
         slots, rest = rigid_slots(courses.rigid, nodes, [axis])
-        motions = [rigid_motion(i, known.dimension) for i in NodeSlots(slots).axes.tolist()]
-        most = known.dimension if len(rest) else SLOTS_PER_NODE
-        if not 1 <= axis <= most or not (len(rest) or (motions and None not in motions)):
+        motions = [rigid_motion(i, known.grid.kind) for i in NodeSlots(slots).axes.tolist()]
+        there = axis in (known.motions if len(rest) else range(1, SLOTS_PER_NODE + 1))
+        if not there or not (len(rest) or (motions and None not in motions)):
             turns = "" if len(rest) else ", or a rotation of the rigid body"
-            raise row.error(f"*CLOAD: direction {axis}; expected 1 to {known.dimension}{turns}")
-        slots = np.append(slots, NodeSlots.pack(rest, axis - 1))
+            raise row.error(f"*CLOAD: direction {axis}; expected {known.spelled}{turns}")
+        slots = np.append(slots, NodeSlots.pack(rest, known.motions.get(axis, 0)))
         courses.force.put(slots, value, label, card.at(row), amplitude, adds=True)
 
 

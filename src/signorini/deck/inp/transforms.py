@@ -13,6 +13,7 @@ from signorini.deck.inp.card import Card
 from signorini.deck.inp.grid import DeckGrid
 from signorini.deck.inp.keywords import of_keyword
 from signorini.deck.inp.sets import Sets
+from signorini.model.kind import revolves
 
 _AXIS_TOL = 1e-9  # of a unit vector: smaller components are rounding of coordinates with ten digits
 
@@ -73,7 +74,7 @@ def make_node_axes(cards: Sequence[Card], grid: DeckGrid, nodes: Sets) -> NodeAx
         if found is None:
             raise card.at(row).error("its points leave no direction; expected points apart from each other")
         found[np.abs(found) < _AXIS_TOL] = 0.0
-        if grid.dimension == 2 and (found[:, 2, :2].any() or grid.kind == "axisymmetric"):
+        if grid.dimension == 2 and (found[:, 2, :2].any() or revolves(grid.kind)):
             raise card.at(row).error("turns directions out of the plane of the model; expected axes in it")
         index[members] = count + np.arange(len(members)) % len(found)
         vectors.append(found[:, : grid.dimension, : grid.dimension])
