@@ -91,6 +91,62 @@ def test_pressures_are_those_of_the_bodies_that_are_left() -> None:
     assert step.contacts[0].pressure == pytest.approx(pressure, rel=1e-9)
 
 
+def block_on_a_layer(share: float | None, sliding: str, **joint: object) -> sg.Model:
+    """A block is rubbed on a body that lies on springs; with ``joint`` on another body, whose contact does not wear."""
+    below: dict[str, object] = {
+        "foundations": [sg.Foundation("layer.bottom", normal_stiffness=50.0, tangential_stiffness=20.0)]
+    }
+    meshes = {
+        "block": sg.rectangle(x=np.linspace(0.0, 1.0, 4), y=np.linspace(0.5, 1.0, 3)),
+        "layer": sg.rectangle(x=np.linspace(-0.5, 1.5, 6), y=np.linspace(0.0, 0.5, 3)),
+    }
+    supports = [sg.Support("block.top", u=(0.1, None), name="drive")]
+    wear = sg.Wear(4e-3, mortar=8e-3, move_mesh=share)
+    contacts = [sg.Contact("block.bottom", "layer.top", friction=0.3, wear=wear, sliding=sliding, name="sole")]  # type: ignore[arg-type]
+    if joint:
+        below = {}
+        meshes["base"] = sg.rectangle(x=np.linspace(-0.5, 1.5, 5), y=np.array([-0.5, 0.0]))
+        supports.append(sg.Support("base.bottom", u=(0.0, 0.0)))
+        contacts.append(sg.Contact("layer.bottom", "base.top", name="joint", **joint))  # type: ignore[arg-type]
+    rub = sg.Step(name="rub", scale={"press": 1.0, "drive": [1.0, 0.0, -1.0, 0.0]}, repeat=2)
+    return sg.Model(
+        mesh=sg.join(meshes),
+        kind="plane strain",
+        bodies=[sg.Body(name, STEEL) for name in meshes],
+        supports=supports,
+        loads=[sg.Load("block.top", force=(None, -1.0), spread="displacement", name="press")],
+        contacts=contacts,
+        steps=[sg.Step(name="press", scale={"press": 1.0, "drive": 0.0}), rub],
+        **below,  # type: ignore[arg-type]
+    )
+
+
+SPRINGS: dict[str, object] = {}
+COMPLIANT, TIED = {"friction": 0.6, "normal_compliance": 0.01}, {"friction": "tied"}
+
+
+@pytest.mark.parametrize(
+    ("sliding", "joint"),
+    [("small", SPRINGS), ("small", COMPLIANT), ("small", TIED), ("finite", COMPLIANT)],
+    ids=["springs", "contact", "tie", "contact, sliding far"],
+)
+def test_what_the_worn_bodies_rest_on_takes_no_part_in_it(sliding: str, joint: dict[str, object]) -> None:
+    """Volume and energy balance are exact, and with small slips pressures nearly those of a mesh that stays."""
+    moves = sg.solve(block_on_a_layer(0.01, sliding, **joint))
+    wear, step = moves.end.state.wear, moves.last
+    sole = len(step.contacts[0].pressure)
+    rubbed = float(moves.end.state.dissipation[:sole].sum()) / 0.3
+    assert wear.moves >= 1
+    assert (wear.volume + wear.loose).sum() == pytest.approx(12e-3 * rubbed, rel=1e-9)
+    assert abs(step.energy_defect) < 1e-12 * step.work
+    assert step.certificate.passed
+    if sliding == "finite":
+        return
+    stays = sg.solve(block_on_a_layer(None, sliding, **joint))
+    off = np.abs(step.contacts[0].pressure - stays.last.contacts[0].pressure).max()
+    assert off < 0.02 * stays.last.contacts[0].pressure.max()
+
+
 @pytest.mark.slow
 def test_a_little_wear_is_the_same_on_a_mesh_that_stays() -> None:
     """A cylinder and a flat, worn by a fiftieth of a cell: depths differ by less than that."""

@@ -203,3 +203,12 @@ def test_blocks_of_strides_that_do_not_recur_are_refused() -> None:
     with pytest.raises(sg.SolveFailed) as caught:
         sg.solve(replace(block_on_bed(), steps=[rub]))
     assert str(caught.value).startswith("step 'rub': blocks of cycles that slide far need strides that recur: no 'inc")
+
+
+def test_given_increments_that_leave_much_of_the_work_are_refused() -> None:
+    """One for a stride in which all pairs begin to slip."""
+    with pytest.raises(sg.SolveFailed) as caught:
+        sg.solve(replace(block_on_bed(stroke=0.1), steps=[replace(step, increments=1) for step in to_and_fro(1)]))
+    words = "step 'rub': increments are too long where sides wear: "
+    assert str(caught.value).startswith(words)
+    assert "of the work is missing in the energy balance; expected more of them, or none given" in str(caught.value)

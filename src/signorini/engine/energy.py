@@ -64,16 +64,17 @@ def stored_energy(prepared: Prepared, state: State) -> float:
     return 0.5 * strain + beyond + interface_energy(prepared, state) + state.closing_work
 
 
-def missing_energy(prepared: Prepared, before: State, after: State) -> float:
+def missing_energy(prepared: Prepared, before: State, after: State, then: Prepared | None = None) -> float:
     """Of the work between two states, what is neither stored, nor taken by friction and plastic flow, nor set free.
 
     Parameters
     ----------
     prepared : under the law in between
     before, after : the states
+    then : the model behind, where its mesh has moved in between
     """
     work = after.work - before.work
-    spent = stored_energy(prepared, after) - stored_energy(prepared, before) + after.released - before.released
+    spent = stored_energy(then or prepared, after) - stored_energy(prepared, before) + after.released - before.released
     spent += float((after.dissipation - before.dissipation).sum()) + after.plastic_work - before.plastic_work
     return abs(work - spent) / (abs(work) or 1.0)
 

@@ -39,10 +39,10 @@ from signorini.engine.step_parts import (
 from signorini.engine.ways import SPACE_INCREMENTS, follow_part
 from signorini.engine.wear_blocks import Correct, CycleBlock, CycleBlocks
 from signorini.engine.wear_paths import FollowedCycle, PathCycle, WornPaths
+from signorini.engine.wear_refusals import NEEDS_OF_PAIRS, NEEDS_OF_STRIDES, refuse_unbalanced, unfit_for_blocks
 from signorini.errors import SolveFailed
 from signorini.interface.worn_sides import WornSides
 from signorini.model.stage import Stage
-from signorini.outcome import Outcome
 from signorini.solution.certificate import worst_of
 from signorini.solution.state import LoadPoint, State, wear_of
 
@@ -75,6 +75,7 @@ def follow_wearing(
                 walk.move_mesh(number)
         else:
             walk.blocks()
+        refuse_unbalanced(stage, (prepared, state), (walk.prepared, walk.state))
     except (SolveFailed, KeyboardInterrupt) as stop:
         raise keep(stop, walk.behind) from None
     return walk.behind, walk.ends
@@ -169,7 +170,10 @@ class _Walk:
         """The step in implicit blocks, which end at the latest where a cycle is kept."""
         step, behind, blocks = self.stage.step, 0, None
         assert step.block is not None
-        self._refuse_blocks()
+        if self.prepared.model.slides and not self._may_recur:
+            raise unfit_for_blocks(self.stage, NEEDS_OF_STRIDES)
+        if not self.prepared.model.slides and self._of_pairs_that_stay is None:
+            raise unfit_for_blocks(self.stage, NEEDS_OF_PAIRS)
         while behind < step.repeat:
             paths, block, anew = self.paths, None, False
             if paths is not None:
@@ -191,20 +195,6 @@ class _Walk:
             self.move_mesh(behind)
         note = "no cycle goes through the strides of another: all were followed" if blocks is None else blocks.note
         self.behind[-1] = replace(self.behind[-1], notes=(*self.behind[-1].notes, note))
-
-    def _refuse_blocks(self) -> None:
-        """Blocks of cycles that could only go with all that is known of bodies."""
-        words = ""
-        if self.prepared.model.slides:
-            if not self._may_recur:
-                words = (
-                    "blocks of cycles that slide far need strides that recur: no 'increments', no results at events, "
-                    "no temperature, no body that turns, and cycles alike; expected that, or no 'block'"
-                )
-        elif self._of_pairs_that_stay is None:
-            words = "blocks of cycles need exact paths; expected no 'increments', and no results at events"
-        if words:
-            raise SolveFailed(f"{self.stage.name}: {words}", status=Outcome.NOT_FOUND)
 
     def _take(self, block: CycleBlock, behind: int) -> None:
         """Go to the end of a block; where its last cycle is kept, with all that is known of bodies and pairs."""
