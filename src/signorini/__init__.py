@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         stress,
         traction,
     )
+    from signorini.derivative.wrappers import jax, torch
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
     from signorini.inspection.check import check
@@ -118,6 +119,7 @@ __all__ = [
     "gap",
     "half_disk",
     "halfwidth",
+    "jax",
     "join",
     "joint_damping",
     "lcp",
@@ -140,6 +142,7 @@ __all__ = [
     "section",
     "solve",
     "stress",
+    "torch",
     "traction",
 ]
 
@@ -159,6 +162,7 @@ _HOMES = {
         "traction",
     ),
     "signorini.inspection.check": ("check",),
+    "signorini.derivative.wrappers": ("jax", "torch"),
     "signorini.errors": ("InputError", "Interrupted", "SignoriniError", "SolveFailed"),
     "signorini.law.closure": ("Closure",),
     "signorini.law.cohesion": ("Cohesion",),

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from signorini.api import Solution, dressed
 from signorini.clock import Clock
+from signorini.derivative.function import AnswerFunction
+from signorini.derivative.outputs import Output
 from signorini.engine.prepare import Prepared
 from signorini.engine.prepare import prepare as prepare_model
 from signorini.engine.solve import solve_prepared
@@ -51,6 +53,25 @@ class PreparedModel:
             friction=self._by_contact(friction), interference=self._by_contact(interference), loads=loads
         )
         return dressed(solve_prepared(changed, raise_on_failure=False), raise_on_failure)
+
+    def function(self, inputs: Sequence[str], outputs: Sequence[Output]) -> AnswerFunction:
+        """Outputs as a function of inputs, with its derivatives: ``values, vjp = f(x)``.
+
+        Parameters
+        ----------
+        inputs : ``"friction.contact"``, ``"load.name"``, ``"gap.contact"`` (one number a node), ``"E.body"``, ...
+        outputs : ``sg.pressure("contact").peak``, ...
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> from signorini.gallery.cylinder import zhu_cylinder
+        >>> f = prepare(zhu_cylinder()).function(["load.cut"], [sg.force("foundation", along=(0, 1))])
+        >>> values, vjp = f([0.5])
+        >>> values.round(9), vjp([1.0]).round(9)
+        (array([39.]), array([78.]))
+        """
+        return AnswerFunction(self._prepared, inputs, outputs)
 
     def _by_contact(self, value: float | Mapping[str, float] | None) -> Mapping[str, float] | None:
         if value is None or isinstance(value, Mapping):

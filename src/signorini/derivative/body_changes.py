@@ -30,6 +30,7 @@ from signorini.derivative.recursion import Adjoint, BoundTerm
 from signorini.derivative.view import HistoryView, displacements
 from signorini.engine.condensation import whole_stiffness
 from signorini.engine.examine import Examined, examine
+from signorini.engine.prepare import Prepared
 from signorini.model.model import Model
 
 
@@ -41,21 +42,26 @@ class BodyChange:
     ----------
     low, high : the model examined there
     step : half of what the parameter differs by between them
+    multiplied : by load, what a prepared model multiplies it by
     """
 
     low: Examined
     high: Examined
     step: float
+    multiplied: Mapping[str, float]
 
     @classmethod
-    def of(cls, low: Model, high: Model, step: float) -> BodyChange:
+    def of(cls, prepared: Prepared, low: Model, high: Model, step: float) -> BodyChange:
         """Of models at both sides of the parameter.
 
         Parameters
         ----------
+        prepared : the model as it is, whose loads may be multiplied; temperatures are so in the models
         low, high, step : as of the attributes
         """
-        return cls(low=examine(low), high=examine(high), step=step)
+        hot = {load.label for load in prepared.model.loads if load.temperature is not None}
+        multiplied = {name: factor for name, factor in prepared.multiplied.items() if name not in hot}
+        return cls(low=examine(low), high=examine(high), step=step, multiplied=multiplied)
 
     @cached_property
     def stiffness(self) -> sp.csr_array:
@@ -65,7 +71,10 @@ class BodyChange:
     @cached_property
     def loads(self) -> Mapping[str, Array]:
         """(dofs,) f' at factor 1, of loads that change."""
-        found = {name: (f - self.low.loads[name]) / (2.0 * self.step) for name, f in self.high.loads.items()}
+        found = {
+            name: self.multiplied.get(name, 1.0) * (f - self.low.loads[name]) / (2.0 * self.step)
+            for name, f in self.high.loads.items()
+        }
         return {name: f for name, f in found.items() if f.any()}
 
     @cached_property

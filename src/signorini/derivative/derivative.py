@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -12,14 +12,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray
+from signorini.derivative.adjoint import adjoint_of
 from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import LoadChange, imposed_by
-from signorini.derivative.functionals import displacement_weights, value, weights
+from signorini.derivative.functionals import value, weights
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.outputs import Displacement, Output, Stress
 from signorini.derivative.parameters import change_of, names_of, shape_change
 from signorini.derivative.points import tape_points
-from signorini.derivative.recursion import Adjoint, Change, PointChange, PointTerm, Weights, backward, forward
+from signorini.derivative.recursion import Change, PointChange, forward
 from signorini.derivative.refusals import refuse_tape
 from signorini.derivative.validity import Validity, validity
 from signorini.derivative.view import HistoryView
@@ -112,13 +113,9 @@ class Derivative:
     """
 
     def __init__(self, history: TapedHistory, output: Output) -> None:
-        self._history, self.output, view = history, output, history.view
-        self.value = value(output, view)
-        self._pull: Array | None = None
-        if isinstance(output, Displacement | Stress):
-            self._adjoint = self._of_bodies(output)
-        else:
-            self._adjoint = backward(view.points, weights(output, view))
+        self._history, self.output = history, output
+        self.value = value(output, history.view)
+        self._adjoint, self._pulls = adjoint_of(history.view, output)
 
     def __repr__(self) -> str:
         return f"Derivative of {self.output!r}: {self.value:.6g}"
@@ -204,7 +201,7 @@ class Derivative:
 
     def _by(self, kind: str, name: str) -> float:
         """The derivative by one parameter."""
-        change = change_of(self._history.prepared, kind, name, of_bodies=self._pull is not None)
+        change = change_of(self._history.prepared, kind, name, of_bodies=bool(self._pulls))
         return self._along(change)
 
     def _along(self, change: Change) -> float:
@@ -232,32 +229,6 @@ class Derivative:
             found[view.points[i].system.active] += term.motion[0]
         return found[view.pairs(contact)]
 
-    def _of_bodies(self, output: Displacement | Stress) -> Adjoint:
-        """The adjoint of an output of bodies: what pulls on their displacements, and what that asks of the pairs.
-
-        With ``u = K^-1 (f + B^T r) + Z a`` and a the travel of what is left of h, see `Condensed.displacement`.
-        """
-        view = self._history.view
-        i = view.number(output.load_factor)
-        system = view.points[i].system
-        prepared, condensed, none = system.prepared, system.condensed, np.zeros(system.motions)
-        pull = displacement_weights(output, view)
-        on_free = prepared.constraints.on_free(pull)
-        rows, flat = (system.directions, system.pairs), np.zeros(system.directions * system.pairs)
-        y = condensed.response.displacement(condensed.reduce(on_free), flat, lambda _: none)
-        rigid = (prepared.motions @ prepared.floating)[prepared.constraints.leaders]
-        v = condensed.travel_transposed(rigid.T @ on_free) if system.motions else flat
-        back = condensed.response.displacement(condensed.reduce(np.zeros_like(on_free)), v, lambda _: none)
-        of_h, of_r = (np.zeros((system.directions, len(view.interface))) for _ in range(2))
-        of_h[:, system.active] = v.reshape(rows)
-        seen = prepared.interface.motion(prepared.constraints.transform @ (y - back))[:, system.active]
-        of_r[:, system.active] = seen - condensed.compliance * v.reshape(rows)
-        adjoint = backward(view.points, {i: Weights(h=of_h, r=of_r)})
-        term = adjoint.terms.get(i, PointTerm(motion=np.zeros(rows), resultant=none))
-        terms = adjoint.terms | {i: replace(term, motion=term.motion - v.reshape(rows))}
-        self._pull = pull
-        return replace(adjoint, terms=terms, pulled={i: y})
-
     def _pulled_by(self, name: str) -> float:
         """What a load or a moving support changes of an output of bodies while the pairs stay as they are."""
         found = 0.0
@@ -265,8 +236,8 @@ class Derivative:
             point = self._history.view.points[i]
             constraints, factor = point.system.prepared.constraints, point.load.factors.get(name, 0.0)
             found += factor * float(y @ constraints.on_free(imposed_by(point.system, name)[0]))
-            if name in constraints.prescribed and self._pull is not None:
-                found += factor * float(self._pull @ constraints.prescribed[name])
+            if name in constraints.prescribed:
+                found += factor * float(self._pulls[i] @ constraints.prescribed[name])
         return found
 
     def _at_once(self, change: BodyChange | ModulusChange) -> float:

@@ -18,6 +18,7 @@ from signorini.derivative.outputs import (
     Peak,
     Resultant,
     Stress,
+    WeightedSum,
 )
 from signorini.derivative.recursion import Weights
 from signorini.derivative.view import HistoryView
@@ -30,6 +31,8 @@ _HERTZ_LINE, _HERTZ_POINT = 4.0, 2.5  # half-width squared over the second momen
 
 def value(output: Output, view: HistoryView) -> float:
     """What an output is."""
+    if isinstance(output, WeightedSum):
+        return sum(factor * value(part, view) for factor, part in output.parts)
     i = view.number(output.load_factor)
     if isinstance(output, Displacement | Stress):
         return _of_bodies(output, view, view.displacement(i), i)

@@ -168,6 +168,18 @@ class Stress(Output):
         return f"stress {self.component} of '{self.body}' at node {self.node}"
 
 
+@dataclass(frozen=True, repr=False)
+class WeightedSum(Output):
+    """A sum of outputs, each with its factor."""
+
+    parts: tuple[tuple[float, Output], ...] = ()
+
+    @property
+    def words(self) -> str:
+        """What it is."""
+        return " + ".join(f"{factor:g} x {part!r}" for factor, part in self.parts)
+
+
 @dataclass(frozen=True)
 class PressureOutputs:
     """Outputs of the pressure of a contact.

@@ -77,7 +77,7 @@ def change_of(prepared: Prepared, kind: str, name: str, *, of_bodies: bool = Fal
     given = float(getattr(material, kind))
     step = _STEP if kind == "nu" else _STEP * (abs(given) or 1.0)
     low, high = (with_material(model, body, **{kind: given + part}) for part in (-step, step))
-    return BodyChange.of(low, high, step)
+    return BodyChange.of(prepared, low, high, step)
 
 
 def shape_change(prepared: Prepared, motion: Array) -> BodyChange:
@@ -87,7 +87,7 @@ def shape_change(prepared: Prepared, motion: Array) -> BodyChange:
     low, high = (
         replace(model, mesh=replace(model.mesh, points=model.mesh.points + part * motion)) for part in (-step, step)
     )
-    return BodyChange.of(low, high, step)
+    return BodyChange.of(prepared, low, high, step)
 
 
 def _friction(prepared: Prepared, kind: str, name: str) -> FrictionChange:

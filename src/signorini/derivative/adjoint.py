@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The adjoint of an output: of contacts, of bodies, or of a weighted sum of both, in one way back."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.derivative.functionals import displacement_weights, weights
+from signorini.derivative.outputs import Displacement, Output, Stress, WeightedSum
+from signorini.derivative.points import TapePoint
+from signorini.derivative.recursion import Adjoint, PointTerm, Weights, backward
+from signorini.derivative.view import HistoryView
+
+
+def adjoint_of(view: HistoryView, output: Output) -> tuple[Adjoint, dict[int, Array]]:
+    """The adjoint of an output, and how it changes with displacements (dofs,) by number of the point."""
+    together: dict[int, Weights] = {}
+    pulls: dict[int, Array] = {}
+    for factor, part in output.parts if isinstance(output, WeightedSum) else ((1.0, output),):
+        if isinstance(part, Displacement | Stress):
+            i, pull = view.number(part.load_factor), factor * displacement_weights(part, view)
+            pulls[i] = pulls[i] + pull if i in pulls else pull
+            continue
+        for i, weight in weights(part, view).items():
+            _add(together, i, factor * weight.h, factor * weight.r)
+    pulled, beyond = {}, {}
+    for i, pull in pulls.items():
+        of_h, of_r, pulled[i], beyond[i] = _of_bodies(view.points[i], len(view.interface), pull)
+        _add(together, i, of_h, of_r)
+    adjoint = backward(view.points, together)
+    terms = adjoint.terms
+    for i, motion in beyond.items():
+        none = PointTerm(motion=np.zeros_like(motion), resultant=np.zeros(view.points[i].system.motions))
+        terms |= {i: replace(terms.get(i, none), motion=terms.get(i, none).motion - motion)}
+    return replace(adjoint, terms=terms, pulled=pulled), pulls
+
+
+def _add(together: dict[int, Weights], i: int, h: Array, r: Array) -> None:
+    """Add how an output changes with motions and forces (d, n) at a point."""
+    known = together.get(i)
+    together[i] = Weights(h=h, r=r) if known is None else Weights(h=known.h + h, r=known.r + r)
+
+
+def _of_bodies(point: TapePoint, count: int, pull: Array) -> tuple[Array, Array, Array, Array]:
+    """What pulls on displacements, as an output of the pairs: with h and r (d, n), y (z,), and v (d, a).
+
+    With ``u = K^-1 (f + B^T r) + Z a`` and a the travel of ``h - C r - h_0 - B K^-1 (f + B^T r)``
+    (see `Condensed.displacement`), pull . u changes with h by v, with r by ``B y - (C + B K^-1 B^T) v``, with f by
+    ``y = K^-1 pull`` directly, and with motions of the pairs that nothing else tells of by - v.
+
+    Parameters
+    ----------
+    point : where the displacements are
+    count : n, of all pairs
+    pull : (dofs,)
+    """
+    system = point.system
+    prepared, condensed, none = system.prepared, system.condensed, np.zeros(system.motions)
+    on_free = prepared.constraints.on_free(pull)
+    rows, flat = (system.directions, system.pairs), np.zeros(system.directions * system.pairs)
+    y = condensed.response.displacement(condensed.reduce(on_free), flat, lambda _: none)
+    rigid = (prepared.motions @ prepared.floating)[prepared.constraints.leaders]
+    v = condensed.travel_transposed(rigid.T @ on_free) if system.motions else flat
+    back = condensed.response.displacement(condensed.reduce(np.zeros_like(on_free)), v, lambda _: none)
+    of_h, of_r = (np.zeros((system.directions, count)) for _ in range(2))
+    of_h[:, system.active] = v.reshape(rows)
+    seen = prepared.interface.motion(prepared.constraints.transform @ (y - back))[:, system.active]
+    of_r[:, system.active] = seen - condensed.compliance * v.reshape(rows)
+    return of_h, of_r, y, v.reshape(rows)
