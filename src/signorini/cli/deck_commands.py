@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``signorini run``, ``modes``, ``check``, ``convert``: what reads a deck. A wrong one waits for no heavy imports."""
+"""Commands that read a deck, ``signorini run``, ``check`` and others: a wrong one waits for no heavy imports."""
 
 from __future__ import annotations
 
@@ -38,6 +38,15 @@ def modes(options: argparse.Namespace) -> int:
 
     with progress(quiet=options.quiet, log=log) as clock:
         return run_modes(deck, options, clock, started)
+
+
+def sensitivities(options: argparse.Namespace) -> int:
+    """Read, solve, print the main answers by all that is given; 0 if that is known."""
+    deck = _load(options)
+    from signorini.cli.run_sensitivities import run_sensitivities
+
+    with progress(quiet=options.json) as clock:
+        return run_sensitivities(deck, options, clock)
 
 
 def check(options: argparse.Namespace) -> int:

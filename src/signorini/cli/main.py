@@ -20,7 +20,7 @@ DONE, FAILED, WRONG_INPUT, NO_SOLUTION, INTERRUPTED = 0, 1, 2, 3, 130
 _MEMORY_ADVICE = "expected a coarser mesh, --backend iterative, or more memory"
 
 _COMMANDS = {
-    "signorini.cli.deck_commands": ("run", "modes", "check", "convert"),
+    "signorini.cli.deck_commands": ("run", "modes", "sensitivities", "check", "convert"),
     "signorini.cli.result_commands": ("diff", "plot", "report"),
     "signorini.cli.fatigue_command": ("fatigue",),
     "signorini.cli.word_commands": ("schema", "explain"),

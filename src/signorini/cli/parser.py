@@ -32,6 +32,7 @@ def make_parser() -> argparse.ArgumentParser:
 
     _add_run(commands, [shared, keywords])
     _add_modes(commands, [shared, keywords])
+    _add_sensitivities(commands, [shared, keywords])
 
     check = commands.add_parser("check", parents=[shared, keywords], help="say what would be solved, what looks wrong")
     check.add_argument(
@@ -40,7 +41,6 @@ def make_parser() -> argparse.ArgumentParser:
         help="factorise, and say up to which friction uniqueness is proved",
     )
     check.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
-
     check.add_argument("--quiet", action="store_true", help="print nothing but errors")
     check.add_argument("--json", action="store_true", help="print plain data for other programs")
 
@@ -112,6 +112,13 @@ def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
         "--wellposed", action="store_true", help="ask whether the solution is the only one, and look for others"
     )
     run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
+
+
+def _add_sensitivities(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
+    words = "the main answers by all that is given, per cent for per cent"
+    by_all = commands.add_parser("sensitivities", parents=parents, help=words)
+    by_all.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
+    by_all.add_argument("--json", action="store_true", help="print plain data for other programs")
 
 
 def _add_modes(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:

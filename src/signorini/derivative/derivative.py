@@ -22,11 +22,12 @@ from signorini.derivative.parameters import change_of, names_of, shape_change
 from signorini.derivative.points import tape_points
 from signorini.derivative.recursion import Change, PointChange, forward
 from signorini.derivative.refusals import refuse_tape
-from signorini.derivative.validity import Validity, validity
+from signorini.derivative.validity import validity
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
+from signorini.solution.sensitivities import Validity
 
 
 class ByName(Mapping[str, Any]):
@@ -73,7 +74,8 @@ class TapedHistory:
     def __init__(self, tape: Tape) -> None:
         refuse_tape(tape)
         self.view = HistoryView.of(tape_points(tape))
-        self._forward: dict[tuple[str, str], tuple[Change, list[PointChange]]] = {}
+        self._changes: dict[tuple[str, str], Change] = {}
+        self._forward: dict[tuple[str, str], list[PointChange]] = {}
 
     @property
     def prepared(self) -> Prepared:
@@ -83,9 +85,14 @@ class TapedHistory:
     def forward(self, kind: str, name: str) -> list[PointChange]:
         """What a parameter changes at every point, kept."""
         if (kind, name) not in self._forward:
-            change = change_of(self.prepared, kind, name)
-            self._forward[kind, name] = change, forward(self.view.points, change)
-        return self._forward[kind, name][1]
+            self._forward[kind, name] = forward(self.view.points, self.change(kind, name))
+        return self._forward[kind, name]
+
+    def change(self, kind: str, name: str) -> Change:
+        """What a parameter changes at once, kept."""
+        if (kind, name) not in self._changes:
+            self._changes[kind, name] = change_of(self.prepared, kind, name)
+        return self._changes[kind, name]
 
     def holds(self, kind: str, name: str) -> Validity:
         """In which changes of a parameter the sequence of events stays."""
@@ -201,8 +208,7 @@ class Derivative:
 
     def _by(self, kind: str, name: str) -> float:
         """The derivative by one parameter."""
-        change = change_of(self._history.prepared, kind, name, of_bodies=bool(self._pulls))
-        return self._along(change)
+        return self._along(self._history.change(kind, name))
 
     def _along(self, change: Change) -> float:
         """What a change changes of the output."""
@@ -243,8 +249,6 @@ class Derivative:
     def _at_once(self, change: BodyChange | ModulusChange) -> float:
         """What a change of the bodies changes of the output while motions, forces and displacements stay."""
         low, high = change.views(self._history.view)
-        if low is high:
-            return 0.0
         return (value(self.output, high) - value(self.output, low)) / (2.0 * change.step)
 
 

@@ -9,10 +9,12 @@ from functools import cached_property
 from signorini.derivative.derivative import Derivative, HistoryTangent, TapedHistory
 from signorini.derivative.outputs import Output
 from signorini.derivative.refusals import refuse_model
+from signorini.derivative.sensitivities import sensitivities
 from signorini.engine.solve import raise_failure, solve
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
 from signorini.solution.history import History
+from signorini.solution.sensitivities import Sensitivities
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -71,6 +73,16 @@ class DifferentiableHistory(History):
         ((kind, name),) = parameter.items()
         history = self._taped
         return HistoryTangent(history, history.forward(kind, name), at)
+
+    def sensitivities(self) -> Sensitivities:
+        """Peak pressures, resultants, half-widths and dissipation by all that is given, per cent for per cent.
+
+        Raises
+        ------
+        InputError
+            As `derivative`.
+        """
+        return sensitivities(self._taped)
 
     @cached_property
     def _taped(self) -> TapedHistory:

@@ -14,7 +14,7 @@ from signorini.derivative.derivative import Derivative, TapedHistory, split
 from signorini.derivative.functionals import value
 from signorini.derivative.moduli import with_material
 from signorini.derivative.outputs import Output, WeightedSum
-from signorini.derivative.parameters import names_of
+from signorini.derivative.parameters import given_value, names_of
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.solve import solve_prepared
 from signorini.engine.tape import Tape
@@ -83,19 +83,13 @@ class AnswerFunction:
         known, model = names_of(self._prepared, kind), self._prepared.model
         if name not in known or kind in ("adhesion", "shear_limit"):
             raise InputError(f"'{kind}.{name}' is no input that can change", where=("inputs",))
-        if kind in ("load", "support"):
-            return np.ones(1)
-        if kind in _MATERIAL:
-            body = next(body for body in model.bodies if body.name == name)
-            return np.array([float(getattr(body.material, kind))])
-        number = next(i for i, contact in enumerate(model.contacts) if contact.label == name)
         if kind == "gap":
-            return np.zeros(int((self._prepared.interface.contact == number).sum()))
-        contact = model.contacts[number]
-        given = contact.friction if kind == "friction" else contact.constant_interference
-        if not isinstance(given, int | float):
+            own = [contact.label for contact in model.contacts].index(name)
+            return np.zeros(int((self._prepared.interface.contact == own).sum()))
+        given = given_value(self._prepared, kind, name)
+        if not np.isfinite(given):
             raise InputError(f"'{kind}.{name}' is not one number", where=("inputs",))
-        return np.array([float(given)])
+        return np.array([given])
 
     def _history(self, x: Array) -> TapedHistory:
         """The history at parameters, the last one where they are its own."""

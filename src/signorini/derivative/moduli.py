@@ -20,7 +20,7 @@ from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.pair_change import PairChange
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import Adjoint, BoundTerm
-from signorini.derivative.view import HistoryView
+from signorini.derivative.view import HistoryView, displacements
 from signorini.engine.path_states import offsets
 from signorini.engine.prepare import Prepared
 from signorini.fem.supports import make_constraints
@@ -77,22 +77,25 @@ class ModulusChange:
     @cached_property
     def pairs(self) -> PairChange:
         """What it changes of the pairs: normals of tilted sides lie nearer to the stiffer one."""
-        step, always = _STEP * self.modulus, make_constraints(self.prepared.space, self.prepared.model)
-        low, high = (with_material(self.prepared.model, self.body, E=self.modulus + part) for part in (-step, step))
-        return PairChange.between(
-            make_interface(self.prepared.space, low, always), make_interface(self.prepared.space, high, always), step
-        )
+        space, always = self.prepared.space, make_constraints(self.prepared.space, self.prepared.model)
+        low, high = (make_interface(space, model, always) for model in self._sides)
+        return PairChange.between(low, high, self.step)
 
     @property
     def step(self) -> float:
         """Half of what the modulus differs by between both sides."""
-        return self.pairs.step
+        return _STEP * self.modulus
+
+    @cached_property
+    def _sides(self) -> tuple[Model, Model]:
+        """The model with the modulus at both sides."""
+        low, high = (with_material(self.prepared.model, self.body, E=self.modulus + s * self.step) for s in (-1.0, 1.0))
+        return low, high
 
     def views(self, view: HistoryView) -> tuple[HistoryView, HistoryView]:
-        """What outputs are read from at both sides of the modulus; the same where no pair changes."""
-        if not self.pairs.any:
-            return view, view
-        return replace(view, interface=self.pairs.low), replace(view, interface=self.pairs.high)
+        """What outputs are read from at both sides of the modulus, motions and forces as they are."""
+        (low, high), pairs = self._sides, self.pairs
+        return replace(view, model=low, interface=pairs.low), replace(view, model=high, interface=pairs.high)
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What areas change of the friction."""
@@ -111,7 +114,7 @@ class ModulusChange:
 
     def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
         """What it changes of an output through all points, its friction apart."""
-        found = 0.0
+        found = -sum(float(y @ self._on_body(points[i])) for i, y in adjoint.pulled.items()) / self.modulus
         for system in dict.fromkeys(points[i].system for i in adjoint.terms):
             own = [i for i in adjoint.terms if points[i].system is system]
             motion = np.stack([adjoint.terms[i].motion.ravel() for i in own], axis=-1)
@@ -120,9 +123,32 @@ class ModulusChange:
             if self.pairs.any:
                 resultant = np.stack([adjoint.terms[i].resultant for i in own], axis=-1)
                 w = response.parts.solve(response.B.T @ motion) + response.rigid @ resultant
+                for k, i in enumerate(own):
+                    w[:, k] += adjoint.pulled[i][system.condensed.dofs] if i in adjoint.pulled else 0.0
                 found += float(np.vdot(w, self._on_contact(system, seen.forces)))
                 found += float(np.vdot(motion, self._by_pairs(system, seen)))
         return found
+
+    def _on_body(self, point: TapePoint) -> Array:
+        """(z,) Elastic forces of the body at a point that do not grow with its modulus."""
+        prepared = point.system.prepared
+        forces = prepared.K @ displacements([point])[:, 0]
+        for load in prepared.model.loads:
+            if load.temperature is not None:
+                forces -= point.load.factors.get(load.label, 0.0) * prepared.loads[load.label]
+        dofs = prepared.space.dofs(np.flatnonzero(self._nodes))
+        own = np.zeros_like(forces)
+        own[dofs] = forces[dofs]
+        return prepared.constraints.on_free(own)
+
+    @cached_property
+    def _nodes(self) -> BoolArray:
+        """(nodes,) Those of the body."""
+        model, cells = self.prepared.model, self.prepared.model.body_of_cells()
+        inside = np.zeros(len(model.mesh.points), dtype=np.bool_)
+        for block in self.prepared.space.blocks:
+            inside[block.cells[cells[block.first : block.first + len(block.cells)] == self.body]] = True
+        return inside
 
     def _by_forces(self, system: InterfaceSystem, seen: _Contacts) -> Array:
         """(d a, p) Motions of the pairs: what yields to forces yields less."""
@@ -147,15 +173,8 @@ class ModulusChange:
 
     def _own(self, system: InterfaceSystem) -> BoolArray:
         """(m,) Contact dofs of the body."""
-        model, cells = self.prepared.model, self.prepared.model.body_of_cells()
-        mine = [
-            block.cells[cells[block.first : block.first + len(block.cells)] == self.body].ravel()
-            for block in self.prepared.space.blocks
-        ]
-        inside = np.zeros(len(model.mesh.points) + 1, dtype=np.bool_)
-        inside[np.concatenate(mine)] = True
         nodes = self.prepared.constraints.nodes[system.condensed.dofs]
-        return np.asarray(inside[np.minimum(nodes, len(inside) - 1)], dtype=np.bool_)
+        return np.append(self._nodes, False)[np.minimum(nodes, len(self._nodes))]
 
     def _contacts(self, system: InterfaceSystem, points: Sequence[TapePoint]) -> _Contacts:
         """Contact displacements of points of one system."""

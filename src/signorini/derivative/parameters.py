@@ -45,14 +45,13 @@ def names_of(prepared: Prepared, kind: str) -> list[str]:
     return [body.name for body in model.bodies if isinstance(body.material, Elastic)]
 
 
-def change_of(prepared: Prepared, kind: str, name: str, *, of_bodies: bool = False) -> Change:
+def change_of(prepared: Prepared, kind: str, name: str) -> Change:
     """What a parameter changes at once.
 
     Parameters
     ----------
     prepared : the model
     kind, name : of the parameter
-    of_bodies : whether an output of the bodies asks for it, for which their displacements are needed
 
     Raises
     ------
@@ -71,13 +70,31 @@ def change_of(prepared: Prepared, kind: str, name: str, *, of_bodies: bool = Fal
     if kind in ("load", "support"):
         return LoadChange(name=name)
     body = [part.name for part in model.bodies].index(name)
-    if kind == "E" and not of_bodies and ModulusChange.knows(prepared, body):
+    if kind == "E" and ModulusChange.knows(prepared, body):
         return ModulusChange(prepared=prepared, body=body)
     material = model.bodies[body].material
     given = float(getattr(material, kind))
     step = _STEP if kind == "nu" else _STEP * (abs(given) or 1.0)
     low, high = (with_material(model, body, **{kind: given + part}) for part in (-step, step))
     return BodyChange.of(prepared, low, high, step)
+
+
+def given_value(prepared: Prepared, kind: str, name: str) -> float:
+    """Value of a parameter as the model has it; 1 of loads and supports, NaN of what is not one number.
+
+    Parameters
+    ----------
+    prepared : the model
+    kind, name : of the parameter
+    """
+    model = prepared.model
+    if kind in ("load", "support"):
+        return 1.0
+    if kind in ("E", "nu", "expansion"):
+        return float(getattr(next(body.material for body in model.bodies if body.name == name), kind))
+    contact = next(contact for contact in model.contacts if contact.label == name)
+    found = contact.constant_interference if kind == "interference" else getattr(contact, kind)
+    return float(found) if isinstance(found, int | float) else np.nan
 
 
 def shape_change(prepared: Prepared, motion: Array) -> BodyChange:

@@ -49,6 +49,8 @@ def refuse_tape(tape: Tape) -> None:
     refuse_model(tape.legs[0].prepared.model)
     for leg in tape.legs:
         prepared = leg.prepared
+        if prepared.space.components != prepared.model.dimension:
+            raise InputError(f"{_UNKNOWN} axisymmetric bodies that twist")
         if prepared.solver.paths is None:
             raise InputError(f"{leg.where}: contact was solved on the bodies as they are; {_UNKNOWN} that")
         if prepared.resting.any():

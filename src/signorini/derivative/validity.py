@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,23 +14,9 @@ from signorini.derivative.view import HistoryView
 from signorini.errors import InputError
 from signorini.law.bound import SIGN
 from signorini.law.states import STICK, UNDECIDED
+from signorini.solution.sensitivities import Validity
 
 _ZERO = 1e-10  # of the data of the law: a condition that no parameter can be near to
-
-
-@dataclass(frozen=True, kw_only=True)
-class Validity:
-    """The changes of a parameter in which a derivative holds, to first order.
-
-    Attributes
-    ----------
-    low, high : change of the parameter at which the sequence of events becomes another; infinite where none does
-    ends : what happens at both, in words; empty where nothing does
-    """
-
-    low: float
-    high: float
-    ends: tuple[str, str]
 
 
 def validity(view: HistoryView, changes: Sequence[PointChange]) -> Validity:
