@@ -17,18 +17,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, frozen
+from signorini.engine.flow_motions import FlowMotions
 from signorini.engine.increment import Mechanism
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
+from signorini.interface.interface import Interface
 from signorini.plasticity.bodies import YieldingBodies
 from signorini.plasticity.laws import Heat
 from signorini.plasticity.measure import size
+from signorini.plasticity.volume import flow_strains
 from signorini.solution.state import LoadPoint
 
-_MAX_DILATATION = 1e-2  # of the size of the strain rate: flow keeps the volume, what is left is not the mechanism yet
-_PRESSED = 3.0  # times the size of the deviator: pressure under a flat punch, whose work on what volume changes counts
-_MAX_ELASTIC = 1e-4  # of the work that the loads do: what bodies that only strain elastically may take up
-_OPENING_TOL = 1e-6  # of the largest velocity: by which pairs may approach, or slip where friction would resist
+_OPENING_TOL = 1e-9  # of the largest velocity: by which pairs may approach, or slip where friction would resist
+_RESISTS = 1e30  # friction per pressure: of pairs that resist slip without any pressure, or without a bound
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,7 +49,7 @@ class Collapse:
 
 
 def collapse(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanisms: Sequence[Mechanism]) -> Collapse | None:
-    """The least bound that motions give; None where none is a mechanism, or loads do no more work than flow takes.
+    """The least bound that motions give; None where none is near a mechanism, or loads do no more work than flow takes.
 
     Parameters
     ----------
@@ -56,57 +57,54 @@ def collapse(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanisms: S
     start, end : points of the load history
     mechanisms : motions in which plastic flow ran away
     """
-    bounds = [bound for one in mechanisms if (bound := _bound(prepared, start, end, one)) is not None]
-    return min(bounds, key=lambda bound: bound.part, default=None)
+    motions = FlowMotions.of(prepared)
+    if motions is None:
+        return None
+    bounds = [
+        _bound(prepared, start, end, v, one.forces) for one in mechanisms if (v := motions.nearest(one)) is not None
+    ]
+    return min((bound for bound in bounds if bound is not None), key=lambda bound: bound.part, default=None)
 
 
-def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, mechanism: Mechanism) -> Collapse | None:
-    """The bound that a motion gives; None where it is no mechanism, or loads do no more work on it than flow takes.
+def _bound(prepared: Prepared, start: LoadPoint, end: LoadPoint, v: Array, forces: Array) -> Collapse | None:
+    """The bound that a motion gives; None where pairs close in it, or loads do no more work on it than flow takes.
 
     Parameters
     ----------
     prepared : the model
     start, end : points of the load history
-    mechanism : the motion, and forces of the pairs for whether they press
+    v : (dofs,) the motion, largest entry 1, in which nothing strains but what flows
+    forces : (d, n) of the pairs meanwhile
     """
-    bodies, T = prepared.yielding, prepared.constraints.transform
-    free, forces = mechanism
-    largest = float(np.abs(free).max(initial=0.0))
-    if bodies is None or largest == 0.0:
-        return None
-    v = T @ (free / largest)
+    bodies = prepared.yielding
+    assert bodies is not None
     heat = bodies.heat(start.factors), bodies.heat(end.factors)
-    rate = bodies.flow_strains(v, heat[1])
-    if bodies.laws.thin:  # the thickness gives way
-        rate[:, 2] = -(rate[:, 0] + rate[:, 1])
-    dilatation = float(bodies.weights @ np.abs(bodies.dilatation(rate)))
+    rate = flow_strains(bodies, v, heat[1])
     rate[:, :3] -= rate[:, :3].mean(axis=1)[:, None]
     rate[:, 3:] *= 0.5
-    strain = size(rate)
-    if bodies.laws.endless[bodies.body[strain > 0.0]].any():
-        return None
-    share = dilatation / (float(bodies.weights @ strain) or 1.0)
-    if share > _MAX_DILATATION:
-        return None
-    parts, taken = _taken(bodies, np.sqrt(2.0 / 3.0) * bodies.weights * strain, *heat)
-    taken *= 1.0 + _PRESSED * share
+    parts, taken = _taken(bodies, np.sqrt(2.0 / 3.0) * bodies.weights * size(rate), *heat)
     before, after = (_power(prepared, point, v) for point in (start, end))
     rubs = False
     if len(prepared.interface):
-        moved = prepared.interface.motion(v)
-        near = (forces[0] > 0.0) & ~prepared.absent
-        if (moved[0, near] < -_OPENING_TOL).any():
+        interface, decided = prepared.interface, prepared.absent | prepared.interface.tied
+        moved = interface.motion(v)
+        if (moved[0, ~decided] < -_OPENING_TOL).any():
             return None
         slip = np.linalg.norm(moved[1:], axis=0)
-        bound = prepared.interface.most(forces[0])
-        rubs = bool((near & (bound > 0.0) & (slip > _OPENING_TOL)).any())
-        taken += float(np.where(near & np.isfinite(bound), bound, 0.0) @ slip)
-    elastic = float(v @ (prepared.K @ v)) * _elastic_share(prepared, bodies, v)
+        rubs = bool((~decided & (slip > _OPENING_TOL) & (slip * _steepest(interface) > moved[0] + _OPENING_TOL)).any())
+        bound = np.where(decided | (forces[0] <= 0.0), 0.0, interface.most(forces[0]))
+        taken += float(np.where(np.isfinite(bound), bound, 0.0) @ slip)
     part = _first_beyond(parts, before + (after - before) * parts - taken)
-    if part is None or elastic > _MAX_ELASTIC * float(np.interp(part, parts, taken)):
+    if part is None:
         return None
     motion = prepared.space.at_nodes(v)
     return Collapse(part=part, motion=frozen(motion / (np.abs(motion).max() or 1.0)), rubs=rubs)
+
+
+def _steepest(interface: Interface) -> Array:
+    """(n,) Friction per pressure at most: a pair that opens faster than it slips times this takes no work."""
+    resists = interface.friction.sticks | (interface.most(np.zeros(len(interface))) > 0.0)
+    return np.where(resists, _RESISTS, np.minimum(interface.friction.steepest, _RESISTS))
 
 
 def _power(prepared: Prepared, point: LoadPoint, v: Array) -> float:
@@ -164,11 +162,3 @@ def _first_beyond(parts: Array, excess: Array) -> float | None:
         return None
     i = rises[0]
     return float(parts[i] - excess[i] * (parts[i + 1] - parts[i]) / (excess[i + 1] - excess[i]))
-
-
-def _elastic_share(prepared: Prepared, bodies: YieldingBodies, v: Array) -> float:
-    """Of the elastic energy of a motion, what is not in bodies that yield."""
-    energy = float(v @ (prepared.K @ v))
-    own = bodies.strains(v)
-    inside = float(bodies.weights @ (own * bodies.eigenstress(own)).sum(axis=1))
-    return max(0.0, 1.0 - inside / energy) if energy > 0.0 else 0.0

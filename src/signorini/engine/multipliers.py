@@ -134,7 +134,7 @@ class MultiplierSolver:
             bound=system.interface.bound.among(np.isin(np.arange(len(bodies.active)), own)),
             force=system.scale.force,
             length=length,
-            tolerance=self.settings.tolerance,
+            tolerance=max(self.settings.tolerance, increment.allowed_lack),
             rounds=self.settings.multiplier_rounds,
             floating=increment.floating,
         )
@@ -151,6 +151,7 @@ class MultiplierSolver:
             free=near,
             status=found.state[~bodies.tied],
             trace=found.trace,
+            lost=found.residual * length,
         )
 
 

@@ -58,16 +58,20 @@ class Rounds:
         """Residual of the last round."""
         return self.residuals[-1] if self.residuals else np.inf
 
-    def run_away(self, beyond: float) -> bool:
-        """Whether steps stay longer than so many times the first, and loads do more work on them than is taken.
-
-        A little above the limit steps are long before they are the mechanism, and not all flows in their direction.
-        """
-        if len(self.lengths) < _MECHANISM_ROUNDS:
+    def flow_away(self, beyond: float) -> bool:
+        """Whether steps stay longer than so many times the first, and loads do more work on them than is taken."""
+        if len(self.lengths) <= _FLOWING_STEPS:
             return False
         recent = self.lengths[-_FLOWING_STEPS - 1 :]
         steady = all(two > _STEADY * one for one, two in pairwise(recent))
         return steady and min(recent) > beyond * self.lengths[0] and min(self.powers[-_DRIVEN_STEPS:]) > 0.0
+
+    def ran_away(self, beyond: float) -> bool:
+        """Whether they have done so for so many rounds that the last step is the mechanism.
+
+        A little above the limit steps are long before they are, and not all flows in their direction.
+        """
+        return len(self.lengths) >= _MECHANISM_ROUNDS and self.flow_away(beyond)
 
     def add(self, residual: float, left: Array, step: float, motion: Mechanism) -> None:
         """A round.

@@ -50,7 +50,6 @@ _SEARCH_FROM = 0.5  # of the residual before: a step that leaves more is looked 
 _KEPT_TANGENTS = 3  # that are kept for more rounds: near the limit load they lead astray, and Newton's method does not
 _SUBSTITUTION = 40.0  # operations that take as long as to move an entry of the factor through memory in one round
 _FLOWING = 30.0  # of the first, elastic step: longer ones, again and again, are bodies that flow away
-_FARTHER = 30.0  # times that, where the mechanism is sought more closely: what volume changes falls by as much
 _MAX_LEAP = 10.0  # of how far bodies have moved: a longer step is cut, a soft tangent knows no better
 _MAX_LENGTHS = 1e7  # of the length of the data: beyond that arithmetic spoils the mechanism
 
@@ -83,7 +82,6 @@ class PlasticSolver:
     tangents : makes bodies that have yielded
     interface, scale, absent : of the moment
     ways : (k, m) combinations of the floating motions that occur, where some bodies rest; None: all of them
-    flowing : times the first step: bodies whose steps are longer, again and again, flow away
     """
 
     elastic: ContactSolver
@@ -92,7 +90,6 @@ class PlasticSolver:
     scale: Scale
     absent: BoolArray
     ways: Array | None = None
-    flowing: float = _FLOWING
 
     @property
     def name(self) -> str:
@@ -146,10 +143,6 @@ class PlasticSolver:
         elastic = self.elastic.moving(ways, interface, scale)
         return replace(self, elastic=elastic, interface=interface, scale=scale, ways=ways)
 
-    def farther(self) -> PlasticSolver:
-        """Bodies that flow longer before they are given up."""
-        return replace(self, flowing=_FARTHER * self.flowing)
-
     def solve(self, increment: Increment) -> IncrementAnswer:
         """Solve one increment by backward Euler, contact and flow rule at its end."""
         rounds, system, bodies = Rounds(), increment.system, self.tangents.yielding
@@ -162,8 +155,8 @@ class PlasticSolver:
         reached: tuple[IncrementAnswer, PlasticResponse] | None = None
         while True:
             answer, tangent, x = self._contact(increment, tangent, x, rounds, model, reached)
-            if not answer.solved:
-                return answer
+            if not answer.solved:  # on bodies that flow away contact may be lost before they have gone far
+                return replace(answer, mechanisms=rounds.mechanisms)
             with increment.clock.phase("plasticity"):
                 after = bodies.respond(T @ answer.free + increment.imposed, old, heat)
                 linear = after
@@ -189,7 +182,7 @@ class PlasticSolver:
             if balanced and (not parted or (asked and not softest)):
                 return self._settled(increment, old, answer, after, rounds)
             lost = not np.isfinite(lack) or far > _MAX_LENGTHS * self.scale.length
-            if rounds.run_away(self.flowing) or lost or len(rounds.steps) >= _MAX_ROUNDS:
+            if rounds.ran_away(_FLOWING) or lost or len(rounds.steps) >= _MAX_ROUNDS:
                 words = f"plastic flow did not settle in {len(rounds.steps)} rounds ({lack:.1e} of the forces left)"
                 return replace(answer, outcome=Outcome.NOT_FOUND, message=words, mechanisms=rounds.mechanisms)
             reached = answer, after
@@ -289,7 +282,7 @@ class PlasticSolver:
             return self._on(increment, tangent, x, None), tangent, x
         increment = replace(increment, allowed_lack=_LACK_IN_ROUNDS * rounds.last)
         answer = self._on(increment, tangent, x, reached[0])
-        if answer.solved or tangent.S is None:
+        if answer.solved or tangent.S is None or rounds.flow_away(_FLOWING):
             return answer, tangent, x
         rounds.least = _STIFFER_PARTS[0]
         for part in (*(part for part in _STIFFER_PARTS if part > tangent.left), 1.0):

@@ -7,7 +7,7 @@ tolerance.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from math import ceil
 
@@ -16,22 +16,19 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.engine.collapse import Collapse, collapse
 from signorini.engine.first_yield import AT_ONCE, elastic_part, flows_at_once, points_of
-from signorini.engine.increment import Mechanism
 from signorini.engine.increments import advance, follow_increments
-from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, StepPart, joined, keep, reached
 from signorini.errors import SolveFailed, told
 from signorini.model.step import Step
 from signorini.outcome import Outcome
-from signorini.solution.state import LoadPoint, State
 
 TOLERANCE = 1e-2
 """Of ``increments = "auto"`` where bodies yield, if the step gives none: backward Euler is of first order."""
 
 _INCREMENTS_BELOW = 8  # of what is followed below collapse: the load named is a bound, they may end before it
 _TIGHTER_BOUNDS = 3  # of a limit load, each from the load that the one before names
-_BOUND_TOL = 1e-3  # of a limit load: bounds that move by less are not sought again
+_BOUND_TOL = 3e-4  # of a limit load: bounds that would move by less are not sought again
 _BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
 _LITTLE_WORK = 1e-6  # of the plastic work so far: where a part takes less, its share decides nothing
 _MAX_INCREMENTS = 256  # of a straight part: more of them are not tried by themselves
@@ -118,37 +115,10 @@ def _increments(part: StepPart, number: int) -> FollowedPart:
         behind = reached(failure)
         done, state = (0, part.before) if behind is None else (len(behind.snapshots), behind.after)
         end = part.before.point.towards(part.end, (done + 1) / number)
-        found = _mechanism(part, state, (state.point, end), failure.mechanisms)
+        found = collapse(part.prepared, state.point, end, failure.mechanisms)
         if found is None:
             raise
         raise _collapsed(part, *_tightened(part, found, (done + found.part) / number), number) from failure
-
-
-def _mechanism(
-    part: StepPart,
-    state: State,
-    ends: tuple[LoadPoint, LoadPoint],
-    motions: Sequence[Mechanism],
-    reached: float = 1.0,
-) -> Collapse | None:
-    """What bounds the load on the way between two loads; where no motion does, bodies flow farther to find one.
-
-    Parameters
-    ----------
-    part, state : of the way, and where it begins
-    ends : both loads
-    motions : in which flow ran away
-    reached : part of the way at whose end they were found
-    """
-    found, prepared = collapse(part.prepared, *ends, motions), part.prepared
-    if found is not None or not isinstance(prepared.solver, PlasticSolver):
-        return found
-    patient = replace(prepared, solver=prepared.solver.farther())
-    try:
-        advance(patient, state, ends[0].towards(ends[1], reached), part.where)
-    except SolveFailed as failure:
-        return collapse(prepared, *ends, failure.mechanisms)
-    return None
 
 
 def _tightened(part: StepPart, found: Collapse, fraction: float) -> tuple[Collapse, float]:
@@ -161,20 +131,21 @@ def _tightened(part: StepPart, found: Collapse, fraction: float) -> tuple[Collap
     part : with that limit
     found, fraction : the first mechanism and its bound
     """
+    before = 1.0 - fraction
     for _ in range(_TIGHTER_BOUNDS):
         try:
             advance(part.prepared, part.before, part.before.point.towards(part.end, fraction), part.where)
         except SolveFailed as failure:
-            ends = part.before.point, part.end
-            again = _mechanism(part, part.before, ends, failure.mechanisms, fraction)
+            again = collapse(part.prepared, part.before.point, part.end, failure.mechanisms)
         else:
             break
         if again is None or again.part >= fraction:
             break
         moved = fraction - again.part
         found, fraction = again, again.part
-        if moved < _BOUND_TOL * fraction:
+        if moved * moved < _BOUND_TOL * fraction * before:  # moves fall faster and faster
             break
+        before = moved
     return found, fraction
 
 

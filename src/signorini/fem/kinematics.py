@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, among
+from signorini.arrays import Array, BoolArray, IntArray, among
 from signorini.fem.elasticity import STRAIN_PARTS
 from signorini.fem.jacobian import determinants, gradients_in_space, jacobians
 from signorini.fem.links import rigid_nodes
@@ -153,6 +153,14 @@ def straining_groups(space: Space, model: Model) -> Iterator[Group]:
         strains = ~rigid[group.numbers]
         if strains.any():
             yield replace(group, index=group.index[strains], body=group.body[strains])
+
+
+def of_bodies(groups: Iterable[Group], bodies: BoolArray) -> Iterator[Group]:
+    """Of groups of cells those of some bodies (b,)."""
+    for group in groups:
+        own = bodies[group.body]
+        if own.any():
+            yield replace(group, index=group.index[own], body=group.body[own])
 
 
 def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) -> Kinematics:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import scipy.sparse as sp
 
@@ -10,7 +12,7 @@ from signorini.arrays import selection
 from signorini.fem.assembly import Cells
 from signorini.fem.assembly import stiffness as assemble
 from signorini.fem.elasticity import elasticities, law_tensor
-from signorini.fem.kinematics import mode_gradients, straining_groups
+from signorini.fem.kinematics import Group, mode_gradients, straining_groups
 from signorini.fem.measure import measure
 from signorini.fem.space import Space
 from signorini.model.model import Model
@@ -18,17 +20,22 @@ from signorini.model.model import Model
 _PRODUCT_TOL = 64.0 * float(np.finfo(np.float64).eps)  # of the products that an entry is summed from: what is rounding
 
 
-def stiffness(space: Space, model: Model) -> sp.csr_array:
+def stiffness(space: Space, model: Model, groups: Iterable[Group] | None = None) -> sp.csr_array:
     """``K_ij = int eps(phi_i) : C : eps(phi_j) dx``, (dofs, dofs).
 
     ``dx`` holds the thickness; of axisymmetric bodies ``2 pi r dr dz``, and their strain has the hoop part ``u_r / r``,
     with twist the shear strains ``d_r u_t - u_t / r`` and ``d_z u_t``.
     Cells of rigid bodies have none.
     With a mean dilatation the volume strain is projected on few functions in every cell (Simo, Taylor, Pister 1985).
+
+    Parameters
+    ----------
+    space, model : the mesh and what is on it
+    groups : the cells; None: all that strain
     """
     law = law_tensor(elasticities(model), hoop=model.axisymmetric, twist=model.twists)
     blocks = []
-    for group in straining_groups(space, model):
+    for group in straining_groups(space, model) if groups is None else groups:
         block = group.block
         at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
         cells = Cells(

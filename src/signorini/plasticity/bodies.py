@@ -25,7 +25,6 @@ from signorini.plasticity.radial_return import Points
 from signorini.plasticity.state import PlasticState, no_flow
 
 _MODE_ROUNDS = 2  # of modes into balance: the second takes up what rounding has left where plastic strains are large
-_FLOWING = 1e4  # of the strain of first yield: so far on the elastic part is none
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -138,22 +137,6 @@ class YieldingBodies:
                         group.amplitudes(self._elastic_stress(self.body[own], free - found[own])), found[own]
                     )
         return found
-
-    def flow_strains(self, v: Array, heat: Heat) -> Array:
-        """(p, n) Strains of a motion (dofs,) in which bodies flow; internal modes as flow takes least for them.
-
-        Parameters
-        ----------
-        v : (dofs,) motion
-        heat : tells the yield stress
-        """
-        rate = self.strains(v)
-        if not self.internal:
-            return rate
-        laws, shear = self.laws, self.laws.shear[self.body]
-        largest = (laws.stress.max(axis=(1, 2))[self.body] / (2.0 * shear)).max() / (np.abs(rate).max() or 1.0)
-        far = _FLOWING * largest
-        return self.respond(far * v, self.untouched(), heat).points.strain / far
 
     def dilatation(self, strain: Array) -> Array:
         """(p,) Volume strain of strains (p, n) as the stiffness sees it: projected in cells with a mean dilatation."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, IntArray
-from signorini.fem.kinematics import Group, kinematics, straining_groups
+from signorini.arrays import Array, IntArray
+from signorini.fem.kinematics import Group, kinematics, of_bodies, straining_groups
 from signorini.fem.space import Space
 from signorini.model.model import Model
 from signorini.plasticity import kernels
@@ -97,16 +97,4 @@ def point_groups(space: Space, model: Model, elasticity: Array) -> Iterator[Poin
 
 def yielding_groups(space: Space, model: Model) -> Iterator[Group]:
     """Cells that may yield, by family and formulation: the order of the points."""
-    yields = np.array([body.material.yields for body in model.bodies])
-    for every in straining_groups(space, model):
-        group = _among(every, yields)
-        if group is not None:
-            yield group
-
-
-def _among(group: Group, yields: BoolArray) -> Group | None:
-    """The cells of a group whose bodies yield."""
-    own = yields[group.body]
-    if not own.any():
-        return None
-    return Group(block=group.block, index=group.index[own], body=group.body[own], formulation=group.formulation)
+    return of_bodies(straining_groups(space, model), np.array([body.material.yields for body in model.bodies]))
