@@ -68,6 +68,46 @@ def read_values(
     return Scattered(at, values)
 
 
+def read_nodal_forces(path: str | Path, *, column: str = "", dimension: int = 2) -> tuple[IntArray, Array]:
+    """Numbers of nodes (k,), and a force at each, (k, d).
+
+    Parameters
+    ----------
+    path : a table with the columns ``node``, ``fx``, ``fy`` and in space ``fz``; or a file of any format that
+        :func:`read_mesh` reads, with vectors at its points and their numbers as ``node``, such as ``modes.vtu``
+    column : name of the vectors; by default the only ones
+    dimension : of the bodies, 2 or 3
+
+    Raises
+    ------
+    InputError
+        If there are no such forces.
+    """
+    path = Path(path)
+    check_file(path)
+    axes = ["fx", "fy", "fz"][:dimension]
+    if path.suffix.lower() in _TABLES:
+        head, table = _table(path)
+        if not {"node", *axes} <= set(head):
+            raise InputError(f"'{path}' has the columns {', '.join(head)}; expected node, {', '.join(axes)}")
+        numbers, forces = table[:, head.index("node")], table[:, [head.index(name) for name in axes]]
+    else:
+        data = {key: np.asarray(values) for key, values in open_mesh(path).point_data.items()}
+        fields = {key: values for key, values in data.items() if values.ndim == 2 and values.shape[1] >= dimension}
+        if "node" not in data:
+            raise InputError(f"'{path}' has no numbers of nodes at its points, 'node'; expected them beside the forces")
+        if not column and len(fields) == 1:
+            (column,) = fields
+        if column not in fields:
+            raise InputError(
+                f"'{path.name}': {one_of(column, fields, 'field of vectors at points')}", where=("column",)
+            )
+        numbers, forces = data["node"], np.asarray(fields[column][:, :dimension], float)
+    if not np.isfinite(forces).all():
+        raise InputError(f"'{path}' has forces that are not finite; expected numbers")
+    return _numbers(path, np.asarray(numbers, float)), forces
+
+
 def _numbers(path: Path, given: Array) -> IntArray:
     """Numbers of nodes."""
     if (given != np.floor(given)).any():

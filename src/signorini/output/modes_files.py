@@ -39,6 +39,9 @@ def write_modes(modes: Mapping[str, NaturalModes], path: Path) -> None:
 def write_shapes(model: Model, modes: Mapping[str, NaturalModes], path: Path) -> None:
     """Write every mode as a point array ``JOINT_MODE``, 3 components, mass-normalised, on the undeformed mesh.
 
+    ``JOINT_MODE_force`` are its inertia forces, ``omega^2 M v``, by which as a static load the largest displacement of
+    bodies with that joint is 1.
+
     Parameters
     ----------
     model : the model
@@ -48,9 +51,12 @@ def write_shapes(model: Model, modes: Mapping[str, NaturalModes], path: Path) ->
     import meshio
 
     complete_meshio()
-    arrays = {
-        f"{joint}_{k + 1}": padded(shape, 3) for joint, own in modes.items() for k, shape in enumerate(own.shapes)
-    }
+    arrays = {}
+    for joint, own in modes.items():
+        for k, (shape, force) in enumerate(zip(own.shapes, own.forces, strict=True)):
+            reach = float(np.linalg.norm(shape, axis=1).max())
+            arrays[f"{joint}_{k + 1}"] = padded(shape, 3)
+            arrays[f"{joint}_{k + 1}_force"] = padded(own.squares[k] / reach * force, 3)
     grid = meshio.Mesh(
         padded(model.mesh.points, 3),
         list(model.mesh.cells.items()),
