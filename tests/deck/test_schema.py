@@ -59,6 +59,11 @@ def test_what_varies_fits(validator):
     assert list(validator.iter_errors(tomllib.loads(text))) == []
 
 
+def test_forces_of_a_file_fit(validator):
+    text = BASE + '\n[[load]]\nname = "shake"\nnodal_forces = { file = "modes.vtu", column = "stuck_1_force" }\n'
+    assert list(validator.iter_errors(tomllib.loads(text))) == []
+
+
 def test_keys_of_the_manual_are_explained():
     """Rows of the tables of docs/deck.md below a heading [[table]] begin with keys."""
     manual, table, missing, found = (EXAMPLES.parent / "docs" / "deck.md").read_text(), "", [], meanings()

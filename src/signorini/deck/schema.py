@@ -21,6 +21,7 @@ from signorini.fatigue.criteria import CRITERIA
 from signorini.law.closure import Closure
 from signorini.model.body import Body
 from signorini.model.bolt import Bolt
+from signorini.model.conditions import Load
 from signorini.model.contact import Contact
 from signorini.model.fatigue import Fatigue
 from signorini.model.material import Elastic, Orthotropic
@@ -49,6 +50,7 @@ OWN_WORDS = {
     "mesh.name": "of one of several meshes: names become name.boundary",
     "contact.between": "two boundaries in place of nonmortar and mortar; the coarser one becomes the nonmortar side",
     "obstacle.name": "what contacts, steps and results call it",
+    "load.nodal_forces": "a force for each node of a node set, ascending; or file and column, with nodes of its own",
     "bolt.plane": "body, point and normal: the section is the facets of the body in a plane of nodes",
     "bolt.halves": "two boundaries that face each other: the section is between them",
 }
@@ -62,6 +64,8 @@ def deck_schema() -> Schema:
         [Bolt], "bolt", replaced={"plane": _TABLE | _own("bolt", "plane"), "halves": _LIST | _own("bolt", "halves")}
     )
     criterion = _either([{"enum": list(CRITERIA)}, _TABLE]) | {"description": "by name, or a table with its constants"}
+    forces = _either([_LIST, _TABLE]) | _own("load", "nodal_forces")
+    own["load"] = _array(_table([Load], "load", needed=(), replaced={"nodal_forces": forces}))
     own["bolt"], own["fatigue"] = _array(bolt), _array(_table([Fatigue], "fatigue", replaced={"criterion": criterion}))
     own["mesh"] = {"anyOf": [_mesh(), _array(_mesh())]}
     own["material"] = {"type": "object", "additionalProperties": _material()}
