@@ -10,7 +10,7 @@ import signorini as sg
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.stress import body_stresses
-from signorini.gallery.twisted import STEEL, fit_under_torque, shaft_in_torsion
+from signorini.gallery.twisted import STEEL, fit_under_torque, ring_under_torque, shaft_in_torsion
 from signorini.model.kind import TWIST
 from signorini.reference.torsion import shaft_twist
 
@@ -153,3 +153,48 @@ def test_torsional_modes():
     model = replace(model, supports=[sg.Support("bottom", u=(0.0, 0.0, 0.0))])
     (lowest,) = sg.natural_modes(sg.solve(model), 1, joint="stuck").frequencies
     assert lowest == pytest.approx(np.sqrt(STEEL.shear_modulus / 8e-9) / 32.0, rel=1e-4)
+
+
+def test_a_ring_in_space_becomes_its_meridian():
+    """Turned until it slips while it is pulled: polygons of 24 and 48 cells are off as the square of their sides."""
+    exact = sg.solve(ring_under_torque()).last
+    found = [sg.solve(ring_under_torque(sectors=n)).last for n in (24, 48)]
+    core = exact.rigid_bodies["core"]
+    for ring, own in (
+        ([step.rigid_bodies["core"].moment[2] for step in found], core.moment),
+        ([step.rigid_bodies["core"].force[2] for step in found], core.force[1]),
+        ([step.strain_energy for step in found], exact.strain_energy),
+        ([step.dissipation for step in found], exact.dissipation),
+    ):
+        assert (4.0 * ring[1] - ring[0]) / 3.0 == pytest.approx(own, rel=3e-4)
+        assert abs(ring[1] - own) < 0.3 * abs(ring[0] - own)
+
+
+def test_what_bodies_that_twist_do_not_do():
+    model = fit_under_torque()
+    flows = replace(STEEL, plastic=sg.Plastic(yield_stress=200.0))
+    for changes, words in (
+        ({"bodies": [sg.Body("shaft", flows), model.bodies[1]]}, "'shaft' yields; expected elastic bodies where they"),
+        ({"contacts": [replace(model.contacts[0], wear=sg.Wear(1e-8))]}, "wear: is given, but bodies twist"),
+        (
+            {"contacts": [replace(model.contacts[0], sliding="finite")]},
+            'is "finite", but bodies twist; expected "small"',
+        ),
+        (
+            {"contacts": [replace(model.contacts[0], friction=(0.2, 0.1), friction_axis=(0, 1, 1))]},
+            r"or \(0, 0, 1\) aro",
+        ),
+        ({"supports": [sg.Support("core", u=(1.0, 0.0, 0.0))]}, "moves a rigid body off the axis of revolution"),
+        ({"loads": [sg.Load("hub.top", force=(None, 1.0, 1.0), spread="displacement")]}, "all radii alike around"),
+        ({"thickness": 2.0}, "forces and areas are for the circumference"),
+        (
+            {"kind": "axisymmetric", "supports": [], "loads": [sg.Load("hub.top", torque=1.0)]},
+            "expected kind 'axisymmet",
+        ),
+        (
+            {"kind": "plane strain", "supports": [], "loads": [sg.Load("hub.top", torque=1.0)]},
+            "axisymmetric models with",
+        ),
+    ):
+        with pytest.raises(sg.InputError, match=words):
+            replace(model, **changes)

@@ -18,6 +18,7 @@ from signorini.fatigue.criteria import FatigueCriterion
 from signorini.law.closure import Closure
 from signorini.law.cohesion import Cohesion
 from signorini.law.friction import FrictionLaw
+from signorini.model.kind import WITHOUT_THICKNESS
 from signorini.model.material import Material
 from signorini.model.model import Model
 from signorini.model.modes import ModesRequest
@@ -80,7 +81,7 @@ def toml_text(model: Model, mesh: str) -> str:
 
 def _lines(model: Model, mesh: str) -> Iterator[str]:
     top = {key: getattr(model, key) for key in ("title", "kind", "thickness", "units")}
-    if model.kind == "axisymmetric":
+    if model.kind in WITHOUT_THICKNESS:
         del top["thickness"]
     defaults = {field.name: field.default for field in fields(model)}
     yield from (f"{key} = {_value(value)}" for key, value in top.items() if value != defaults[key] or key == "kind")

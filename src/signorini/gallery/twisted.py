@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from signorini.meshing.plane import Cells, rectangle
+from signorini.meshing.plane import Cells, annulus, rectangle
+from signorini.meshing.solid import extruded
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -145,4 +146,41 @@ def turned_punch(*, turn: float = 0.01, n: int = 12) -> Model:
         supports=[Support("bottom", u=(0.0, 0.01, 0.0), name="lift")],
         obstacles=[Rigid("punch", Plane((0.0, 0.0), (0.0, -1.0)), rotation=turn)],
         contacts=[Contact("seat", "punch", friction="stick", name="seat")],
+    )
+
+
+def ring_under_torque(*, sectors: int = 0, turn: float = 0.003, pull: float = 0.02) -> Model:
+    """A ring 5..10 on another one 10..20, a slice of `fit_under_torque` one cell high, as its meridian or in space.
+
+    Parameters
+    ----------
+    sectors : cells around the axis of the ring in space; 0 for its meridian
+    turn, pull : of the core, radians and length
+    """
+    radii = {"shaft": (5.0, 10.0), "hub": (10.0, 20.0)}
+    on_axis: tuple[float, ...]
+    driven: tuple[float, ...]
+    if sectors:
+        rings = {
+            name: annulus(inner=a, outer=b, n_radial=1, n_angular=sectors, angle=360.0)
+            for name, (a, b) in radii.items()
+        }
+        mesh, inside, outside = extruded(join(rings), z=[0.0, 4.0]), "inner", "outer"
+        on_axis, driven = (0.0, 0.0, 0.0), (0.0, 0.0, pull, 0.0, 0.0, turn)
+    else:
+        cells = {name: rectangle(width=b - a, height=4.0, origin=(a, 0.0)) for name, (a, b) in radii.items()}
+        mesh, inside, outside = join(cells), "left", "right"
+        on_axis, driven = (0.0, 0.0), (0.0, pull, turn)
+    return Model(
+        mesh,
+        kind="3d" if sectors else TWIST,
+        title="Ring that is turned and pulled",
+        bodies=[Body(name, STEEL) for name in radii],
+        supports=[Support(f"hub.{outside}", u=(0.0, 0.0, 0.0), name="held"), Support("core", u=driven)],
+        rigid_bodies=[RigidBody("core", on=f"shaft.{inside}", point=on_axis)],
+        contacts=[Contact(f"shaft.{outside}", f"hub.{inside}", friction=0.2, interference=0.01, name="fit")],
+        steps=[
+            Step(name="press", scale={"core": 0.0}, friction={"fit": 0.0}),
+            Step(name="drive", scale={"core": 1.0}, friction={"fit": 0.2}, increments=4),
+        ],
     )

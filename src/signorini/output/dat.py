@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterator, Mapping, Sequence, Set
+from collections.abc import Container, Iterator, Sequence, Set
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ from signorini.output.atomic_write import atomic_write
 from signorini.output.ccx_contact import slave_energies, slave_values
 from signorini.output.fields import Fields
 from signorini.solution.history import History
-from signorini.solution.results import ContactResult, ObstacleResult, Part, StepResult
+from signorini.solution.results import ContactResult, Part, StepResult
 
 _TENSOR_ORDER = [0, 1, 2, 3, 5, 4]  # xx, yy, zz, xy, xz, yz of xx, yy, zz, xy, yz, xz
 _CELL_HEADS = {
@@ -92,17 +92,13 @@ def _nodes(model: Model, step: StepResult, table: Table, quantity: str, end: str
         rows[row, : len(own)] = own @ rows[row, : len(own)]
     turned = np.flatnonzero(np.isin(table.members, list(table.rotations)))
     for row in turned.tolist():
-        rows[row] = _turn(step.rigid_bodies, table.rotations[int(table.members[row])], quantity)
+        body = step.rigid_bodies[table.rotations[int(table.members[row])]]
+        rows[row] = _about(body.rotation if quantity == "U" else body.moment, twists=model.twists)
     if table.totals != "only" or quantity == "U":
         head = "displacements (vx,vy,vz)" if quantity == "U" else "forces (fx,fy,fz)"
         yield from _numbered(f" {head} {end}", model.mesh.labels[table.members], rows, table.axes)
     if table.totals != "no" and quantity == "RF":
         yield from _single(f" total force (fx,fy,fz) {end}", total)
-
-
-def _turn(bodies: Mapping[str, ObstacleResult], name: str, quantity: str) -> Array:
-    """Rotation or moment of a rigid body, (3,); in the plane about z."""
-    return _about_z(bodies[name].rotation if quantity == "U" else bodies[name].moment)
 
 
 def _in_cells(fields: Fields, step: StepResult, quantity: str) -> Sequence[tuple[IntArray, Array]] | None:
@@ -149,13 +145,13 @@ def _contacts(model: Model, step: StepResult, table: Table, quantity: str, time:
 
 def _forces(contact: ContactResult, quantity: str, end: str) -> Iterator[str]:
     """Resultants on the slave body."""
-    pressure, shear = contact.normal_force, contact.tangential_force
+    pressure, shear = contact.normal_force, contact.area @ contact.shear
     force = _in_space({"CF": pressure + shear, "CFN": pressure, "CFS": shear}[quantity])
     area = np.where(contact.closed, contact.area, 0.0)
     share = area / max(float(area.sum()), np.finfo(float).tiny)
     middle, outward = share @ contact.points, _in_space(-share @ contact.normals)
     of: dict[str, Part] = {"CF": "all", "CFN": "pressure", "CFS": "friction"}
-    about = [_about_z(contact.moment(origin, of[quantity])) for origin in (0.0 * middle, middle)]
+    about = [_about(contact.moment(origin, of[quantity]), twists=contact.twists) for origin in (0.0 * middle, middle)]
     centre = _in_space(middle)
     normal = float(force @ outward)
     sizes = np.array([area.sum(), normal, np.linalg.norm(force - normal * outward)])
@@ -170,10 +166,10 @@ def _forces(contact: ContactResult, quantity: str, end: str) -> Iterator[str]:
         yield from ("", f"   {head}", "", f"   {_spelled(row)}")
 
 
-def _about_z(turn: float | Array) -> Array:
-    """(3,) A rotation or moment, in the plane a number."""
+def _about(turn: float | Array, *, twists: bool) -> Array:
+    """(3,) A rotation or moment, in the plane a number about z, of bodies that twist about the axis, y."""
     value = np.atleast_1d(turn)
-    return value if len(value) == 3 else np.array([0.0, 0.0, value[0]])
+    return value if len(value) == 3 else value[0] * np.eye(3)[1 if twists else 2]
 
 
 def _in_space(vector: Array) -> Array:

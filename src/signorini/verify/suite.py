@@ -106,6 +106,7 @@ QUICK: tuple[Case, ...] = (
     closures.rough_interface,
     twist.torsion_of_a_shaft,
     twist.torque_of_a_press_fit,
+    twist.ring_in_space,
     twist.sticking_punch,
     twist.ball_that_turns,
 )

@@ -8,7 +8,15 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.api import solve
-from signorini.gallery.twisted import BALL, STEEL, fit_under_torque, screwed_ball, shaft_in_torsion, turned_punch
+from signorini.gallery.twisted import (
+    BALL,
+    STEEL,
+    fit_under_torque,
+    ring_under_torque,
+    screwed_ball,
+    shaft_in_torsion,
+    turned_punch,
+)
 from signorini.reference.torsion import ball_torsion, disc_torque, gross_torque, shaft_twist
 from signorini.verify.check import Check, checks_of
 
@@ -39,6 +47,20 @@ def torque_of_a_press_fit() -> Iterator[Check]:
             ("hypot(T / R, N) over mu F", np.hypot(torque / 10.0, pulled) / most, 1.0, 1e-6),
             source="Coulomb's circle",
         )
+
+
+def ring_in_space() -> Iterator[Check]:
+    """A ring of 48 cells around, turned and pulled, beside its meridian: polygons are that far from circles."""
+    ring, whole = solve(ring_under_torque()).last, solve(ring_under_torque(sectors=48)).last
+    core, other = ring.rigid_bodies["core"], whole.rigid_bodies["core"]
+    yield from checks_of(
+        "B20 ring of 48 cells around and its meridian",
+        ("torque", np.ravel(other.moment)[2], np.ravel(core.moment)[0], 5e-3),
+        ("force along the axis", other.force[2], core.force[1], 5e-3),
+        ("strain energy", whole.strain_energy, ring.strain_energy, 5e-3),
+        ("dissipation", whole.dissipation, ring.dissipation, 5e-3),
+        source="the meridian",
+    )
 
 
 def sticking_punch() -> Iterator[Check]:
