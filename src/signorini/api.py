@@ -244,7 +244,8 @@ class Solution(DifferentiableHistory):
 
     def plot(self) -> Figure:
         """Draw pressure and friction of every contact at the end of the last step."""
-        return literal(draw_contacts(PictureData(self, self._fields)))
+        data = PictureData(self, self._fields)
+        return literal(draw_contacts(data), data.units)
 
     def view(self, path: str | Path) -> None:
         """Write a picture of a model in space after the last step, ``*.png``, rendered off-screen.

@@ -50,7 +50,7 @@ def test_boundaries_and_bodies_are_named_and_what_has_no_arrow_is_said():
     assert {text.get_text() for text in figure.legends[0].get_texts()} == {"block", "loads"}
     assert "not drawn: sun (temperature)" in figure.get_suptitle()
     assert figure.get_suptitle().startswith("a $b$\n")
-    assert axes.get_xlabel() == "x, length"
+    assert axes.get_xlabel() == "x"
 
 
 @pytest.mark.parametrize("name", ["bolted_joint", "ball_on_block", "wear"])

@@ -20,6 +20,7 @@ from signorini.plot.history import draw_history
 from signorini.plot.picture_data import PictureData
 from signorini.plot.solid import draw_solid_mesh, draw_solid_peeq, draw_solid_stress
 from signorini.plot.style import literal
+from signorini.plot.units import units_of
 from signorini.plot.view import write_view
 from signorini.plot.wear import draw_wear
 from signorini.report.page import write_report
@@ -50,7 +51,7 @@ def plot(options: argparse.Namespace) -> int:
         write_view(PictureData(history), file)
     else:
         with atomic_write(file) as aside:
-            literal(_draw(history, options.what)).savefig(aside, dpi=150)
+            literal(_draw(history, options.what), units_of(history.model.units)).savefig(aside, dpi=150)
     print(file)
     return 0
 

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from signorini.arrays import Array
 from signorini.errors import InputError, one_of
 from signorini.plot.contact import shade_status
-from signorini.plot.curve import coefficient, surface_coordinate
+from signorini.plot.curve import coefficient, place_along, place_words
 from signorini.plot.style import BOUND, INK, PRESSURE, STATUS_COLOURS, TRACTION, dress, literal
+from signorini.plot.units import units_of
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK
 
@@ -93,7 +94,8 @@ def film_of(history: History, contact: str | None = None) -> ContactFilm:
     found = [(step.name, instant, instant.contacts[i]) for step in history.steps for instant in step.instants]
     kinks = [0.0, *(instant.load_factor for _, instant, _ in found if instant.what == "segment")]
     loads = np.array([0.0, *(instant.load_factor for _, instant, _ in found)])
-    axis, s = surface_coordinate(found[0][2].points)
+    closed = np.any([result.closed for _, _, result in found], axis=0)
+    axis, s = place_along(found[0][2].points, closed)
     order = np.argsort(s, kind="stable")
 
     def values(key: str) -> Array:
@@ -123,7 +125,7 @@ def animate_path(history: History, path: Path, *, contact: str | None = None, fr
     figure, draw = _scene(film, history.model.title)
     loads = np.linspace(film.load[0], film.load[-1], frames)
     pictures = FuncAnimation(figure, lambda i: draw(float(loads[i])), frames=frames, blit=False)
-    literal(figure)
+    literal(figure, units_of(history.model.units))
     pictures.save(str(path), writer=PillowWriter(fps=_FRAMES_PER_SECOND), dpi=72)
 
 
@@ -151,9 +153,9 @@ def _scene(film: ContactFilm, title: str) -> tuple[Figure, Callable[[float], lis
     forces.plot(film.load, film.force[:, 0], color=TRACTION, lw=1.2)
     (here,) = forces.plot([], [], "o", color=INK, ms=6)
     forces.set_xlim(film.load[0], film.load[-1])
-    dress(tractions, y="force per area")
-    dress(slips, x=f"{film.axis} along '{film.name}', undeformed", y="slip")
-    dress(forces, x="segment of the loads", y="friction force")
+    dress(tractions, y="pressure and friction, force per area")
+    dress(slips, x=place_words(film.axis, film.name), y="slip, length")
+    dress(forces, x="segment of the loads", y="friction force, force")
     shown = {name: STATUS_COLOURS[name] for name in (STICK, SLIP)}
     patches = [Patch(color=colour, label=name) for name, colour in shown.items()]
     handles = [pressure, traction, *bounds[:1], *patches]

@@ -67,7 +67,12 @@ def _draw(axes: Axes, curve: Curve) -> None:
         lines += line
     if len(curve.s) > 1:
         axes.set_xlim(*closed_range(curve))
-    dress(axes, x=curve.place, y="force per area", title=f"{curve.contact}, end of step '{curve.step}'")
+    dress(
+        axes,
+        x=curve.place,
+        y="pressure and friction, force per area",
+        title=f"{curve.contact}, end of step '{curve.step}'",
+    )
     states = [Patch(color=colour, label=words) for words, colour in STATUS_COLOURS.items() if words in curve.status]
     axes.legend(handles=[*lines, *states], fontsize=8.5, frameon=True, framealpha=0.92, edgecolor="none", loc="best")
 

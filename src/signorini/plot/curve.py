@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from signorini.arrays import Array
+from signorini.arrays import Array, BoolArray
 from signorini.model.contact import Contact
 from signorini.plot.style import status_words
 from signorini.solution.results import OPEN, ContactResult
 
+_MAX_LEAN = 1.03  # times its extent along an axis: a surface that is longer is drawn over its arc length
 _MAX_GRAPH_LENGTH = 2.0  # times its extent: a surface that is longer is no graph over that axis
 
 
@@ -24,7 +25,8 @@ class Curve:
     Attributes
     ----------
     contact, step : names
-    axis : what the coordinate is: "x", "y", or "angle in degrees" about the middle of a closed surface
+    axis : what the coordinate is: "x", "y", "arc length" from the end of a surface that leans or bends, or "angle in
+        degrees" about the middle of a closed one
     s : (n,) increasing coordinate
     pressure, traction : (n,) force per area; traction is friction on the nonmortar body along the tangent
     hoop : (n,) friction around the axis where bodies of revolution twist; None elsewhere
@@ -45,7 +47,7 @@ class Curve:
     @property
     def place(self) -> str:
         """The coordinate in words, for an axis."""
-        return f"{self.axis} along '{self.contact}', undeformed"
+        return place_words(self.axis, self.contact)
 
     @property
     def has_bound(self) -> bool:
@@ -53,15 +55,16 @@ class Curve:
         return 0.0 < self.friction < math.inf
 
 
-def curve_of(law: Contact, contact: ContactResult, step: str) -> Curve:
+def curve_of(law: Contact, contact: ContactResult, step: str, touching: BoolArray) -> Curve:
     """The pairs with an area of one contact of the plane.
 
     Parameters
     ----------
     law, contact : as the model has it, and at the end of a step
     step : name of the step
+    touching : (n,) pairs that touch at the end of any step, so that all steps are drawn over one coordinate
     """
-    axis, s = surface_coordinate(contact.points[contact.area > 0])
+    axis, s = place_along(contact.points[contact.area > 0], touching[contact.area > 0])
     own = np.flatnonzero(contact.area > 0)[np.argsort(s, kind="stable")]
     return Curve(
         contact=contact.name,
@@ -97,6 +100,39 @@ def surface_coordinate(points: Array) -> tuple[str, Array]:
             return "xy"[axis], points[:, axis]
     arm = points - points.mean(axis=0)
     return "angle in degrees", np.degrees(np.arctan2(arm[:, 1], arm[:, 0]))
+
+
+def place_along(points: Array, touching: BoolArray) -> tuple[str, Array]:
+    """The coordinate of a picture: that of `surface_coordinate`, but arc length where the touching part leans or bends.
+
+    Parameters
+    ----------
+    points : (n, 2) length
+    touching : (n,) which of them are looked at; all where none is
+
+    Examples
+    --------
+    >>> place_along(np.array([[0.0, 0.0], [3.0, 4.0], [6.0, 8.0]]), np.ones(3, bool))
+    ('arc length', array([ 0.,  5., 10.]))
+    """
+    axis, s = surface_coordinate(points)
+    if axis not in ("x", "y") or len(points) < 2:
+        return axis, s
+    order = np.argsort(s, kind="stable")
+    way = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points[order], axis=0), axis=1))])
+    here = np.flatnonzero(touching[order])
+    first, last = (here[0], here[-1]) if len(here) > 1 else (0, len(s) - 1)
+    if way[last] - way[first] <= _MAX_LEAN * (s[order[last]] - s[order[first]]):
+        return axis, s
+    along = np.empty(len(s))
+    along[order] = way
+    return "arc length", along
+
+
+def place_words(axis: str, contact: str) -> str:
+    """The coordinate along a contact in words, for an axis."""
+    unit = "" if axis == "angle in degrees" else ", length"
+    return f"{axis} along '{contact}', undeformed{unit}"
 
 
 def closed_range(curve: Curve) -> tuple[float, float]:

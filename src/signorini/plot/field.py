@@ -203,7 +203,9 @@ def _finish(panels: list[Axes], closer: str) -> None:
             side.set_visible(axes is not panels[0])
             side.set_color(INK)
         axes.tick_params(colors=INK, labelsize=9)
-        label(axes, x="x", y="y" if axes is panels[0] else "", title="" if axes is panels[0] else closer)
+        label(
+            axes, x="x, length", y="y, length" if axes is panels[0] else "", title="" if axes is panels[0] else closer
+        )
 
 
 def triangles(outlines: list[IntArray]) -> IntArray:

@@ -154,13 +154,13 @@ def _resultants(axes: Axes, forces: ContactForces, data: PictureData) -> None:
         axes.plot(forces.load, forces.friction[:, 2], "--", color=HOOP, lw=1.5, label="torque over the largest radius")
     elif across.max() > _MIN_SHARE * np.abs(forces.friction).max():
         axes.plot(forces.load, across, ":", color=TRACTION, lw=1.5, label="friction force across that")
-    dress(axes, y="force on the nonmortar body")
+    dress(axes, y="force on the nonmortar body, force")
     handles, labels = axes.get_legend_handles_labels()
     if forces.dissipation.max() > 0.0:
         beside = axes.twinx()
         handles += beside.plot(forces.load, forces.dissipation, "-.", color=INK, lw=1.2)
         labels.append("dissipation since the beginning")
-        label(beside, y="work")
+        label(beside, y="dissipated, work")
         beside.set_ylim(0.0, 1.3 * forces.dissipation.max())
         beside.spines["top"].set_visible(False)
     axes.legend(handles, labels, fontsize=8.5, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
@@ -172,7 +172,7 @@ def friction_direction(forces: ContactForces, solid: bool) -> tuple[Array, str]:
         size = np.linalg.norm(forces.friction, axis=1)
         largest = forces.friction[np.argmax(size)] / (size.max() or 1.0)
         along = largest * np.copysign(1.0, largest[np.argmax(np.abs(largest))])
-        return along, f"along {_spelled(along)}"
+        return along, f"along {'xyz'[along.argmax()]}" if along.max() > 1.0 - _MIN_SHARE else f"along {_spelled(along)}"
     pressed = forces.normal[np.argmax(np.linalg.norm(forces.normal, axis=1))]
     return np.array([pressed[1], -pressed[0], 0.0]) / (np.linalg.norm(pressed) or 1.0), "along the tangent"
 

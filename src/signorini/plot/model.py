@@ -88,7 +88,7 @@ def draw_model(model: Model) -> Figure:
     words += [f"{contact.label}: {contact.nonmortar} on {_side(contact.mortar)}" for contact in model.contacts[:3]]
     words += [f"not drawn: {names}"] if (names := ", ".join(_hidden(model, loads))) else []
     entitle(figure, model.title or "model", "\n".join(words))
-    return literal(figure)
+    return literal(figure, units_of(model.units))
 
 
 def _side(mortar: str | Obstacle) -> str:
@@ -118,8 +118,8 @@ def _plane(axes: Axes, model: Model) -> _Stage:
     shapes = [contact.mortar for contact in model.contacts if isinstance(contact.mortar, Obstacle)]
     shapes += [rigid.shape for rigid in model.obstacles]
     draw_walls(axes, [Wall(shape, np.zeros(2), np.zeros(2), 0.0) for shape in shapes], moved=False)
-    names, length = ("radius", "height") if model.axisymmetric else ("x", "y"), units_of(model.units).length
-    label(axes, x=f"{names[0]}, {length}", y=f"{names[1]}, {length}")
+    names = ("radius", "height") if model.axisymmetric else ("x", "y")
+    label(axes, x=f"{names[0]}, length", y=f"{names[1]}, length")
     axes.tick_params(colors=INK, labelsize=9)
     return _Stage(axes=axes, points=points, camera=None, size=size)
 

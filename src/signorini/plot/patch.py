@@ -176,4 +176,4 @@ def _frame(axes: Axes, patch: Patch) -> None:
     for side in axes.spines.values():
         side.set_visible(False)
     axes.tick_params(colors=INK, labelsize=9)
-    label(axes, x=patch.chart.labels[0], y=patch.chart.labels[1])
+    label(axes, x=f"{patch.chart.labels[0]}, length", y=f"{patch.chart.labels[1]}, length")

@@ -149,8 +149,14 @@ class PictureData:
     def curves(self, number: int) -> list[Curve]:
         """Every contact of a plane model after a step, which counts from 1."""
         step = self.history.steps[number - 1]
-        pairs = zip(self.model.contacts, step.contacts, strict=True)
-        return [curve_of(law, contact, step.name) for law, contact in pairs]
+        pairs = zip(self.model.contacts, step.contacts, self._touching, strict=True)
+        return [curve_of(law, contact, step.name, touching) for law, contact, touching in pairs]
+
+    @cached_property
+    def _touching(self) -> list[BoolArray]:
+        """Of every contact (n,), which pairs touch at the end of any step."""
+        ends = [step.contacts for step in self.history.steps]
+        return [np.any([contact.closed for contact in every], axis=0) for every in zip(*ends, strict=True)]
 
     @cached_property
     def patches(self) -> list[Patch]:

@@ -13,7 +13,7 @@ from signorini.plot.field import BODIES, body_handles, factor_words
 from signorini.plot.paint import Paint, body_paint, paint_skin
 from signorini.plot.picture_data import PictureData, Scalar
 from signorini.plot.shots import Shot, deformed, make_shots
-from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, legend_below, round_number
+from signorini.plot.style import INK, SCALE, STATUS_INK, colour_bar, entitle, frame, label, legend_below, round_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -115,4 +115,6 @@ def _scale(axes: Axes, width: float) -> None:
     length = round_number(width / 5.0)
     part = length / width
     axes.plot([1.0 - part, 1.0], [-0.05, -0.05], transform=axes.transAxes, color=INK, lw=2.0, clip_on=False)
-    axes.text(1.0 - 0.5 * part, -0.04, f"{length:g}", transform=axes.transAxes, ha="center", fontsize=9, color=INK)
+    axes.text(
+        1.0 - 0.5 * part, -0.04, f"{length:g}", transform=axes.transAxes, ha="center", fontsize=9, color=INK, gid=SCALE
+    )

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -11,11 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signorini.arrays import Array
+from signorini.plot.units import Units
 from signorini.solution.results import OPEN, SLIP, STICK, ContactResult
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+SCALE = "scale"
+"""Mark of a length beside a picture, to which its unit is added."""
+
+_NO_UNITS = Units()
+_QUANTITY = re.compile(r", (force per area|force|length|work)(?=$| \()")
 
 PRESSURE, TRACTION, BOUND = "#1b4f8a", "#c4451c", "#c4451c"
 HOOP = "#2a7f62"
@@ -95,10 +103,33 @@ def legend_below(figure: Figure, handles: Sequence[Any]) -> None:
     figure.legend(handles=handles, fontsize=9, frameon=False, loc="outside lower center", ncols=len(handles))
 
 
-def literal(figure: Figure) -> Figure:
-    """Show every text of a figure as it is: dollars in the names of a deck enclose no formula."""
+def named(words: str, units: Units) -> str:
+    """The name of an axis with the unit of the quantity that it ends in.
+
+    >>> named("slip, length", Units(length="mm")), named("slip, length", Units())
+    ('slip, mm', 'slip')
+    """
+    return _QUANTITY.sub(lambda found: units.after_comma(found[1]), words)
+
+
+def literal(figure: Figure, units: Units = _NO_UNITS) -> Figure:
+    """Show every text of a figure as it is, and quantities on axes in their units.
+
+    Dollars in the names of a deck enclose no formula. Names of axes end in the quantity, as "slip, length", which gives
+    way to its unit; where that is not known, "force per area" stays, and the others, said already, are left out.
+
+    Parameters
+    ----------
+    figure : to which nothing is added any more
+    units : those of the model
+    """
     import matplotlib.text as mtext
 
+    for axes in figure.axes:
+        for name in (axes.xaxis.label, axes.yaxis.label):
+            name.set_text(named(name.get_text(), units))
     for text in figure.findobj(mtext.Text):
         text.set_parse_math(False)
+        if text.get_gid() == SCALE and units.length != _NO_UNITS.length:
+            text.set_text(f"{text.get_text()} {units.length}")
     return figure

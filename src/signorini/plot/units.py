@@ -22,6 +22,15 @@ class Units:
     pressure: str = "force per area"
     work: str = "work"
 
+    def after_comma(self, quantity: str) -> str:
+        """Unit of a quantity behind a comma; of one without, "force per area", and of others nothing.
+
+        >>> Units(length="mm").after_comma("length"), Units().after_comma("length")
+        (', mm', '')
+        """
+        unit = self.pressure if quantity == "force per area" else str(getattr(self, quantity))
+        return "" if unit == quantity != "force per area" else f", {unit}"
+
 
 def units_of(words: str) -> Units:
     """Units from the words of a model; what they do not hold, or hold twice, is called by its quantity.

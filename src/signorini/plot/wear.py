@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.errors import InputError
-from signorini.plot.curve import surface_coordinate
+from signorini.plot.curve import place_words, surface_coordinate
 from signorini.plot.picture_data import PictureData
 from signorini.plot.style import INK, PRESSURE, TRACTION, colour_bar, dress, entitle
 from signorini.solution.contact_wear import ContactWear
@@ -116,8 +116,8 @@ def _profiles(_: Figure, panels: Array, course: _Course) -> None:
     if high > low:
         for panel in panels:
             panel.set_xlim(low - _SHOWN * (high - low), high + _SHOWN * (high - low))
-    place = f"{axis} along '{contact.name}', undeformed"
-    dress(panels[0], x=place, y="worn depth", title=f"depth of '{contact.nonmortar}' and '{contact.mortar}'")
+    place = place_words(axis, contact.name)
+    dress(panels[0], x=place, y="worn depth, length", title=f"depth of '{contact.nonmortar}' and '{contact.mortar}'")
     panels[0].invert_yaxis()
     sides = [Line2D([], [], color=INK, ls="-", label=contact.nonmortar)]
     if course.worn[-1].on_mortar.any():
@@ -138,12 +138,17 @@ def _maps(figure: Figure, panels: Array, course: _Course) -> None:
     axes = np.sort(np.argsort(np.ptp(contact.points, axis=0))[1:])
     x, y = contact.points[:, axes].T
     for panel, values, words in (
-        (panels[0], wear.depth, f"worn depth of '{contact.nonmortar}'"),
+        (panels[0], wear.depth, f"worn depth of '{contact.nonmortar}', length"),
         (panels[1], contact.pressure, "pressure, force per area"),
     ):
         points = panel.scatter(x, y, c=values, s=14, cmap="viridis")
         panel.set_aspect("equal")
-        dress(panel, x="xyz"[axes[0]], y="xyz"[axes[1]], title=f"after {course.cycles[-1]:.0f} cycles")
+        dress(
+            panel,
+            x=f"{'xyz'[axes[0]]}, length",
+            y=f"{'xyz'[axes[1]]}, length",
+            title=f"after {course.cycles[-1]:.0f} cycles",
+        )
         colour_bar(figure, points, panel, words)
 
 
@@ -156,7 +161,7 @@ def _largest(axes: Axes, course: _Course) -> None:
     )
     if course.worn[-1].on_mortar.any():
         lines += axes.plot(course.cycles, depths[:, 1], "s--", color=TRACTION, ms=3.5, label=f"of '{contact.mortar}'")
-    dress(axes, x="cycles", y="largest worn depth")
+    dress(axes, x="cycles", y="largest worn depth, length")
     beside = axes.twinx()
     pressures = [each.pressure.max(initial=0.0) for each in course.contacts]
     lines += beside.plot(course.cycles, pressures, "-", color=PRESSURE, lw=1.5, label="largest pressure")

@@ -10,6 +10,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.plot.history import contact_forces, friction_direction
 from signorini.plot.picture_data import PictureData
+from signorini.plot.style import named
 from signorini.report.charts import ChartData, Line
 from signorini.solution.history import History
 
@@ -40,7 +41,10 @@ def profiles(data: PictureData) -> Iterator[ChartData]:
             groups[f"end of step {number}, {curve.step}"] = lines
         shown = f"{contact.label}: pressure and friction along the surface"
         yield ChartData(
-            title=shown, x=steps[numbers[-1]][i].place, y=f"pressure and friction, {data.units.pressure}", groups=groups
+            title=shown,
+            x=named(steps[numbers[-1]][i].place, data.units),
+            y=f"pressure and friction, {data.units.pressure}",
+            groups=groups,
         )
 
 

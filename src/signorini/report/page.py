@@ -22,6 +22,7 @@ from signorini.plot.field import draw_stress
 from signorini.plot.picture_data import PictureData
 from signorini.plot.solid import draw_solid_stress
 from signorini.plot.style import literal
+from signorini.plot.units import Units
 from signorini.report.charts import chart
 from signorini.report.curves import forces, hysteresis, profiles, reactions
 from signorini.report.markup import listed, said, table
@@ -105,7 +106,10 @@ def _sections(history: History, fields: Fields | None) -> Iterator[tuple[str, st
     yield "Problem", _problem(history.model)
     if not history.steps:
         if history.escape is not None:
-            yield "Escape", _picture(plot_escape(history), "the motion along which the loads carry the bodies away")
+            yield (
+                "Escape",
+                _picture(plot_escape(history), "the motion along which the loads carry the bodies away", Units()),
+            )
         return
     data = PictureData(history, fields)
     yield "Results", _results(history)
@@ -116,11 +120,14 @@ def _sections(history: History, fields: Fields | None) -> Iterator[tuple[str, st
     if along:
         yield "Contacts", "".join(map(chart, along))
     elif data.model.contacts:
-        yield "Contacts", _picture(draw_contacts(data), "pressure, status and friction of the contacts")
+        yield "Contacts", _picture(draw_contacts(data), "pressure, status and friction of the contacts", data.units)
     if over := [*forces(data), *hysteresis(data), *reactions(data)]:
         yield "History", "".join(map(chart, over))
     drawn = draw_solid_stress(data) if data.solid else draw_stress(data)
-    yield "Bodies", (scene(data) if data.solid else "") + _picture(drawn, "von Mises stress after the last step")
+    yield (
+        "Bodies",
+        (scene(data) if data.solid else "") + _picture(drawn, "von Mises stress after the last step", data.units),
+    )
     if events := _events(history):
         yield "Events", events
     yield "Time", _time(history)
@@ -203,12 +210,12 @@ def _time(history: History) -> str:
     return table([("phase", "seconds"), *rows], numbers=(1,))
 
 
-def _picture(figure: object, words: str) -> str:
+def _picture(figure: object, words: str, units: Units) -> str:
     """A figure of Matplotlib inside the page."""
     from matplotlib.figure import Figure
 
     assert isinstance(figure, Figure)
     held = io.BytesIO()
-    literal(figure).savefig(held, format="png", dpi=110)
+    literal(figure, units).savefig(held, format="png", dpi=110)
     coded = base64.b64encode(held.getvalue()).decode("ascii")
     return f'<figure><img alt="{said(words)}" src="data:image/png;base64,{coded}"></figure>'
