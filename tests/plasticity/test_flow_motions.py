@@ -10,9 +10,11 @@ import signorini as sg
 from signorini.engine.flow_motions import FlowMotions
 from signorini.engine.increment import Mechanism
 from signorini.engine.prepare import prepare
+from signorini.fem.locking import modes_in_flow
 from signorini.plasticity.volume import flow_strains, volume_rows
 from tests.helpers.columns import ELASTIC, Y
 
+HARDENING = sg.Elastic(E=200.0, nu=0.3, plastic=sg.Plastic(Y, hardening=20.0))
 PERFECT = sg.Elastic(E=200.0, nu=0.3, plastic=sg.Plastic(Y))
 CASES = [
     ("quad", "plane strain", "mean dilatation"),
@@ -73,3 +75,16 @@ def test_a_uniform_dilatation_is_measured_exactly(cells, kind, formulation):
     trace = {"plane strain": 3.0, "axisymmetric": 2.0, "3d": 6.0, "plane stress": 0.0}[kind]
     volume = bodies.weights.sum()
     assert np.sum((volume_rows(bodies) @ v.ravel()) ** 2) == pytest.approx(trace**2 * volume, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["plane strain", "axisymmetric", "3d"])
+def test_modes_that_hardly_keep_their_volume_are_told(kind):
+    """By `check`, and by the results once such a body has flowed."""
+    cells = "hexahedron" if kind == "3d" else "quad"
+    model = replace(stack(cells, kind, "incompatible"), loads=[sg.Load("up.top", pressure=1.4)])
+    model = replace(model, bodies=[replace(model.bodies[0], material=HARDENING), model.bodies[1]])
+    told = [note for note in sg.solve(model).last.notes if "flow too stiffly" in note]
+    assert len(told) == (kind != "plane strain")
+    assert list(modes_in_flow(model).values()) == told
+    calm = replace(model, bodies=[replace(model.bodies[0], formulation="mean dilatation"), model.bodies[1]])
+    assert not modes_in_flow(calm)

@@ -31,6 +31,7 @@ from benchmarks.plastic_models import in_words, make
         (2, "incompatible softened plane-strain"),
         (4, "overlap restart turned"),
         (801, "hexahedron20"),
+        (995, "rigid"),
     ],
 )
 def test_answers_obey_the_laws(seed, kinds):

@@ -19,6 +19,7 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
 from signorini.engine.turning import turning_notes
 from signorini.fem.boundary import boundary
+from signorini.fem.locking import modes_in_flow
 from signorini.fem.rigid import ConnectedBody
 from signorini.law.states import OPEN
 from signorini.solution.state import State
@@ -202,17 +203,20 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
 
 
 def flow_notes(prepared: Prepared, state: State) -> Iterator[str]:
-    """Bodies with plastic strains of more than a twentieth somewhere."""
+    """Bodies with plastic strains of more than a twentieth somewhere, and those whose cells flow too stiffly."""
     bodies, plastic = prepared.yielding, state.plastic
     if bodies is None or plastic is None:
         return
+    stiff = modes_in_flow(prepared.model)
     for i in np.unique(bodies.body):
-        largest = float(plastic.equivalent[bodies.body == i].max())
+        name, largest = prepared.model.bodies[i].name, float(plastic.equivalent[bodies.body == i].max())
         if largest > _FLOWED:
             yield (
-                f"'{prepared.model.bodies[i].name}' has equivalent plastic strains of up to {largest:.0%}: its law is "
-                "one of small strains, which holds to about 5%"
+                f"'{name}' has equivalent plastic strains of up to {largest:.0%}: its law is one of small strains, "
+                "which holds to about 5%"
             )
+        if largest > 0.0 and name in stiff:
+            yield stiff[name]
 
 
 def wear_notes(prepared: Prepared, state: State) -> Iterator[str]:

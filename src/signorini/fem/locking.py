@@ -83,6 +83,26 @@ def stiffened_bodies(model: Model) -> tuple[str, ...]:
     )
 
 
+def modes_in_flow(model: Model) -> dict[str, str]:
+    """Bodies that yield in cells with internal modes which leave few motions that keep the volume, and what of it.
+
+    In space, and around an axis, every point of such a cell asks for its volume, as linear tetrahedra do.
+    """
+    if model.kind != "3d" and not model.axisymmetric:
+        return {}
+    where = "around an axis" if model.axisymmetric else "in space"
+    return {
+        body.name: (
+            f"body '{body.name}' yields in cells with incompatible modes, which {where} hardly keep their volume: they "
+            "flow too stiffly, and beyond the limit load its load may rise on; take formulation = 'mean dilatation'"
+        )
+        for body in model.bodies
+        if body.material.yields
+        and body.formulation == "incompatible"
+        and model.mesh.families(body.name).keys() & BRICKS.keys()
+    }
+
+
 def thin_bodies(space: Space, model: Model) -> tuple[str, ...]:
     """Bodies of standard linear quadrilaterals of which every one lies at an outer edge: too stiff in bending."""
     if "quad" not in model.mesh.cells:

@@ -12,7 +12,7 @@ from signorini.engine.examine import Examined
 from signorini.engine.plastic_steps import TOLERANCE as TOLERANCE_OF_FLOW
 from signorini.engine.validity_notes import finer_notes, overlap_notes
 from signorini.engine.ways import TOLERANCE_OF_FORCES
-from signorini.fem.locking import stiffened_bodies, thin_bodies
+from signorini.fem.locking import modes_in_flow, stiffened_bodies, thin_bodies
 from signorini.fem.rigid import describe_motions
 from signorini.inspection.data import total_force
 from signorini.inspection.notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
@@ -251,6 +251,7 @@ def _stiffness_notes(examined: Examined) -> list[str]:
         "for that; take formulation = 'mean dilatation'"
         for name in stiffened_bodies(examined.model)
     ]
+    volume += modes_in_flow(examined.model).values()
     return volume + [
         f"body '{name}' is at most two linear quadrilaterals thick: too stiff where it bends; take formulation = "
         "'incompatible', quadratic cells or more layers"
