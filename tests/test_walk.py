@@ -13,7 +13,7 @@ MOST_FILES = 125  # that a newcomer reads from a deck to its answer
 
 # what the paper's cylinder has not, and the folders and files that are there for it alone
 FEATURES = {
-    "bolts": ["engine/bolts", "meshing/cut", "model/bolt"],
+    "bolts": ["engine/bolts", "meshing/cut", "meshing/halves", "model/bolt"],
     "cyclic symmetry": ["fem/cyclic", "fem/neighbours", "interface/sectors"],
     "equations and rigid bodies": ["fem/links"],
     "elastic foundations": ["fem/foundation"],
@@ -32,7 +32,7 @@ FEATURES = {
     ],
     "temperatures": ["fem/thermal"],
     "natural modes": ["vibration", "fem/mass", "linalg/inertia", "model/modes"],
-    "values that vary": ["model/varying", "deck/varying", "fem/varying"],
+    "values that vary": ["model/varying", "deck/varying", "deck/nodal_forces", "fem/varying", "engine/overlaps"],
     "tied sides": ["condense/ties"],
     "steps that change contacts or supports": ["engine/contact_changes", "engine/support_changes"],
     "fields between the ends of steps": ["output/series"],

@@ -8,6 +8,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 import signorini as sg
+from signorini.cli.main import main
 from signorini.reference.hertz import HertzLine
 
 STEEL = sg.Elastic(E=200.0, nu=0.3, expansion=1e-5)
@@ -165,15 +166,64 @@ def test_what_is_no_field_is_told(given, said):
     assert str(told.value).startswith(said)
 
 
-def test_a_step_does_not_change_what_varies():
-    with pytest.raises(sg.InputError, match="changes one that varies over the side"):
-        sg.Model(
-            mesh=WALL,
-            bodies=[sg.Body("block", STEEL)],
-            supports=[sg.Support("top", u=(0.0, -0.01))],
-            contacts=[sg.Contact("bottom", sg.Plane((0, 0), (0, 1)), interference="-x^2", name="foot")],
-            steps=[sg.Step(interference={"foot": 0.1})],
-        )
+def on_two_feet(steps, **contact):
+    """A block on a rigid floor by a side with a crown that steps change."""
+    return sg.Model(
+        mesh=sg.rectangle(width=2.0, height=1.0, nx=8, ny=4),
+        bodies=[sg.Body("block", STEEL)],
+        supports=[sg.Support("top", u=(0.0, -0.01))],
+        contacts=[sg.Contact("bottom", sg.Plane((0, 0), (0, 1)), friction=0.2, name="foot", **contact)],
+        steps=steps,
+    )
+
+
+CROWN = {
+    "formula": "-0.02*(x - 1)^2",
+    "function": lambda at: -0.02 * (at[:, 0] - 1.0) ** 2,
+    "nodes": sg.NodeValues([-0.02 * (k / 4 - 1.0) ** 2 for k in range(9)], list(range(1, 10))),
+}
+
+
+@pytest.mark.parametrize("crown", CROWN.values(), ids=CROWN.keys())
+def test_a_step_changes_what_varies(crown):
+    """What a step has brought about is what was there: linear in between, and gone with a number."""
+    there = sg.solve(on_two_feet([sg.Step(name="press")], interference=crown)).last
+    steps = [sg.Step(name="set", scale={"top": 0.0}, interference={"foot": crown})]
+    brought = sg.solve(on_two_feet([*steps, sg.Step(name="press")]))
+    assert brought.last.contacts[0].gap == pytest.approx(there.contacts[0].gap, abs=1e-12)
+    assert brought.last.contacts[0].pressure == pytest.approx(there.contacts[0].pressure, rel=1e-6, abs=1e-6)
+    assert max(abs(step.energy_defect) for step in brought.steps) <= 1e-9 * brought.last.work
+    level = [sg.Step(name="level", scale={"top": 0.0}, interference={"foot": 0.0}), sg.Step(name="press")]
+    flat = sg.solve(on_two_feet(level, interference=crown)).last
+    plain = sg.solve(on_two_feet([sg.Step()])).last
+    assert flat.contacts[0].pressure == pytest.approx(plain.contacts[0].pressure, rel=1e-9)
+
+
+def test_a_history_that_is_cut_keeps_what_varies(tmp_path):
+    steps = [
+        sg.Step(name="set", interference={"foot": CROWN["formula"]}, scale={"top": 0.5}),
+        sg.Step(name="press"),
+        sg.Step(name="back", interference={"foot": "-0.01*(x - 1)^2"}),
+    ]
+    whole = sg.solve(on_two_feet(steps))
+    first = sg.solve(on_two_feet(steps[:1]))
+    first.save_state(tmp_path / "state.npz")
+    second = sg.solve(on_two_feet(steps[1:]), start=tmp_path / "state.npz")
+    assert (second.last.displacement == whole.last.displacement).all()
+    whole.write(tmp_path / "whole.h5")
+    again = sg.load(tmp_path / "whole.h5")
+    assert (again.model.steps[0].interference["foot"].values == whole.model.steps[0].interference["foot"].values).all()
+
+
+def test_what_no_step_can_vary_is_told():
+    with pytest.raises(sg.InputError, match=r"step\[0\].interference.foot: varies over a side that slides far"):
+        on_two_feet([sg.Step(interference={"foot": "x"})], sliding="finite")
+    with pytest.raises(sg.InputError, match=r"step\[0\].interference.foot: varies over a side whose mesh moves"):
+        on_two_feet([sg.Step(interference={"foot": "x"})], wear=sg.Wear(1e-3, move_mesh=0.1))
+    with pytest.raises(sg.InputError, match=r"interference.foot: '2 \+' is no formula"):
+        sg.Step(interference={"foot": "2 +"})
+    with pytest.raises(sg.InputError, match=r"step\[0\].interference.foot: has no value at node"):
+        sg.solve(on_two_feet([sg.Step(interference={"foot": sg.NodeValues([1.0], [1])})]))
 
 
 def test_an_archive_holds_what_varies(tmp_path):
@@ -181,3 +231,46 @@ def test_an_archive_holds_what_varies(tmp_path):
     sg.solve(model).write(tmp_path / "water.h5")
     again = sg.load(tmp_path / "water.h5").model.loads[0].pressure
     assert again == WATER["arc length upwards"]
+
+
+def test_a_deck_has_steps_that_vary_interferences(tmp_path):
+    (tmp_path / "crown.csv").write_text("node,depth\n" + "".join(f"{k},{-0.01 * (k - 5) ** 2}\n" for k in range(1, 10)))
+    deck, again = tmp_path / "deck.toml", tmp_path / "again.toml"
+    text = DECK_STEPS.replace("GIVEN", '"-0.16*(x - 1)^2"')
+    found = []
+    for given in ('"-0.16*(x - 1)^2"', '{ file = "crown.csv" }'):
+        deck.write_text(DECK_STEPS.replace("GIVEN", given))
+        found.append(sg.solve(sg.read(deck)).last.contacts[0].pressure)
+        assert main(["convert", str(deck), "-o", str(again)]) == 0
+        found.append(sg.solve(sg.read(again)).last.contacts[0].pressure)
+    assert all(other == pytest.approx(found[0], rel=1e-9) for other in found)
+    assert (found[0] == 0.0).any()
+    deck.write_text(text.replace("(x - 1)", "(w - 1)"))
+    assert main(["check", str(deck)]) == 2
+
+
+DECK_STEPS = """
+kind = "plane stress"
+[mesh]
+generator = "rectangle"
+width = 2.0
+height = 1.0
+nx = 8
+ny = 4
+[material.steel]
+E = 100.0
+nu = 0.3
+[[body]]
+name = "block"
+material = "steel"
+[[support]]
+on = "top"
+u = [0.0, -0.01]
+[[contact]]
+name = "foot"
+nonmortar = "bottom"
+plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }
+friction = 0.2
+[[step]]
+interference = { foot = GIVEN }
+"""

@@ -12,7 +12,7 @@ from signorini.checks import text
 from signorini.deck.deck import Deck, located_error
 from signorini.deck.error import DeckError
 from signorini.deck.inp.build import read_deck
-from signorini.deck.keys import check_keys, make, table
+from signorini.deck.keys import check_keys, make, table, tables
 from signorini.deck.meshes import cut_for_bolts, deck_mesh
 from signorini.deck.nodal_forces import with_nodal_forces
 from signorini.deck.syntax import parse
@@ -93,7 +93,8 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach
     materials = deck_materials(data)
     bodies = deck_bodies(data, materials)
     mesh = cut_for_bolts(deck_mesh(data["mesh"], reach), data)
-    mesh, data = with_nodal_forces(mesh, data, reach)
+    if any(isinstance(entry.get("nodal_forces"), dict) for entry in tables(data, "load")):
+        mesh, data = with_nodal_forces(mesh, data, reach)
     parts: dict[str, Any] = deck_parts(data, reach, mesh)
     parts |= {key: data[key] for key in ("title", "kind", "thickness", "units") if key in data}
     model = Model(mesh, bodies=bodies, **parts)

@@ -31,11 +31,8 @@ def with_nodal_forces(mesh: Mesh, data: Mapping[str, Any], reach: Reach) -> tupl
     InputError
         If the file has no such forces, or nodes that the mesh lacks.
     """
-    entries = tables(data, "load")
-    if not any(isinstance(entry.get("nodal_forces"), dict) for entry in entries):
-        return mesh, dict(data)
     loads, sets = [], dict(mesh.nodes)
-    for i, entry in enumerate(entries):
+    for i, entry in enumerate(tables(data, "load")):
         given, where = entry.get("nodal_forces"), ("load", i, "nodal_forces")
         if not isinstance(given, dict):
             loads.append(entry)

@@ -174,7 +174,9 @@ def _typed(hint: Any) -> Schema:
         free = type(None) in typing.get_args(parts[0])
         inside = _either([_typed(parts[0]), *([_FREE] if free else [])])
         return _array(inside) if parts[-1] is Ellipsis else _LIST
-    if (inspect.isclass(origin) and issubclass(origin, Mapping)) or hint in _VARIES or inspect.isclass(hint):
+    if inspect.isclass(origin) and issubclass(origin, Mapping):
+        return _TABLE
+    if hint in _VARIES or inspect.isclass(hint):
         return _TABLE if "ndarray" not in str(hint) else _LIST
     if inspect.isclass(origin) and issubclass(origin, Iterable):
         return _LIST

@@ -134,6 +134,8 @@ def deck_parts(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> dict[str, l
                 if key == "bolt":
                     made_of = ("plane", "halves")  # the mesh has that section
                     entry = {own: value for own, value in entry.items() if own not in made_of}
+                if key == "step" and isinstance(entry.get("interference"), dict):
+                    entry = entry | {"interference": _overlaps(entry["interference"], where, reach, mesh)}
                 made = make(KINDS[key], entry, where)
             elif key == "fatigue":
                 made = deck_fatigue(entry, where)
@@ -156,6 +158,12 @@ def _varied(entry: dict[str, Any], where: Where, reach: Reach, dimension: int) -
         if isinstance(entry.get(key), list) and any(isinstance(part, dict | list) for part in entry[key])
     }
     return entry | single | several
+
+
+def _overlaps(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> dict[str, Any]:
+    """Interferences of a step by contact, with what varies as the model takes it."""
+    d = mesh.points.shape[1]
+    return {name: deck_value(value, (*where, "interference", name), reach, d) for name, value in entry.items()}
 
 
 def _refuse_place(on: Any, where: Where) -> None:

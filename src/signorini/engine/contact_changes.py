@@ -13,6 +13,7 @@ from signorini.attempt import MethodRun
 from signorini.engine.energy import set_free, stored_energy
 from signorini.engine.examine import left_out, refuse_free_motions
 from signorini.engine.increments import advance
+from signorini.engine.overlaps import gap_under
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError
 from signorini.interface.interface import pairs_of, under_laws
@@ -115,6 +116,9 @@ def pressed_gap(prepared: Prepared, stage: Stage) -> Array:
     gap = prepared.interface.gap.copy()
     for i, contact in enumerate(prepared.model.contacts):
         if contact.label in stage.interference:
-            own = prepared.interface.contact == i
-            gap[own] += contact.constant_interference - stage.interference[contact.label]
+            own, overlap = prepared.interface.contact == i, stage.interference[contact.label]
+            if isinstance(overlap, float) and isinstance(contact.interference, float):
+                gap[own] += contact.interference - overlap
+            else:
+                gap[own] = gap_under(prepared.space, prepared.model, i, overlap)
     return gap

@@ -14,6 +14,7 @@ from signorini.engine.bolts import with_bolts
 from signorini.engine.bond_company import refuse_beside_bonds
 from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
 from signorini.engine.fatigue_places import refuse_requests
+from signorini.engine.overlaps import with_overlaps
 from signorini.errors import InputError
 from signorini.fem.body_frames import BodyFrames
 from signorini.fem.links import linked_nodes
@@ -78,6 +79,8 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     """
     if model.bolts:
         model = with_bolts(model)
+    if any(step.varies for step in model.steps):
+        model = with_overlaps(model)
     refuse_locking(model)
     factors = {} if start is None else start.state.point.factors
     before = Standing() if start is None else start.standing

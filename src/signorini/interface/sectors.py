@@ -10,13 +10,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.errors import InputError
-from signorini.fem.boundary import boundary
 from signorini.fem.cyclic import contacts_across
 from signorini.fem.neighbours import Neighbourhood, neighbourhood
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
-from signorini.fem.varying import at_nodes
 from signorini.interface.interface import Interface, make_interface
+from signorini.interface.side_values import side_values
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle
@@ -61,13 +60,7 @@ def _repeated(space: Space, near: Neighbourhood, contact: Contact, i: int) -> Co
     def everywhere(given: Varying | str, key: str) -> Varying | str:
         if isinstance(given, float | int | str):
             return given
-        values = np.zeros(len(space.mesh.points))
-        names = (contact.mortar, contact.nonmortar) if contact.side == "coarser" else (contact.nonmortar,)
-        for name in names:
-            if isinstance(name, str) and name in space.mesh.boundaries:
-                side = boundary(space, name, ("contact", i, "nonmortar"))
-                values[side.nodes] = at_nodes(given, space, side.nodes, ("contact", i, key), side)
-        return NodeValues(values[near.source])
+        return NodeValues(side_values(space, contact, given, ("contact", i, key))[near.source])
 
     parts: dict[str, Any] = {key: everywhere(getattr(contact, key), key) for key in ("gap", "interference")}
     return replace(contact, **parts)

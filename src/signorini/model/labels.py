@@ -74,8 +74,16 @@ def refuse_wrong_changes(i: int, step: Step, contacts: Sequence[Contact], held: 
                 raise InputError(f"'{name}' is tied for good; only contacts can change", where=("step", i, key))
     for name, value in step.friction.items():
         contacts[known.index(name)].check_change(value, ("step", i, "friction", name))
-    for name in step.interference:
-        contacts[known.index(name)].check_pressed(("step", i, "interference", name))
+    for name, overlap in step.interference.items():
+        contact = contacts[known.index(name)]
+        if isinstance(overlap, float) and isinstance(contact.interference, float):
+            continue
+        moved = contact.wear is not None and contact.wear.move_mesh is not None
+        if contact.slides or moved:
+            words = (
+                f"varies over a side {'that slides far' if contact.slides else 'whose mesh moves'}; expected a number"
+            )
+            raise InputError(words, where=("step", i, "interference", name))
     supports = [part.label for part in held]
     for key in ("release", "hold", "restore"):
         for name in getattr(step, key):

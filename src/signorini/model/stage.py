@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, fields
 
 from signorini.model.model import Model
 from signorini.model.step import Step
+from signorini.model.varying import Varying
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +26,7 @@ class Standing:
     """
 
     friction: Mapping[str, float | tuple[float, float]] = field(default_factory=dict)
-    interference: Mapping[str, float] = field(default_factory=dict)
+    interference: Mapping[str, Varying] = field(default_factory=dict)
     inactive: frozenset[str] = frozenset()
     released: frozenset[str] = frozenset()
     loosened: frozenset[str] = frozenset()

@@ -10,8 +10,9 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from signorini.checks import choice, number, text, whole
-from signorini.errors import InputError
+from signorini.errors import InputError, Where
 from signorini.law.friction import coefficient
+from signorini.model.varying import Varying, varying
 from signorini.short import Short
 
 _MAX_COUNT = 1_000_000
@@ -35,7 +36,8 @@ class Step(Short):
         "events": wherever a pair changes its state on an exact path
     friction : contact to its coefficient from here on, a number, two where the contact has a ``friction_axis``, or
         "stick". What slips because of that slips at once, before the loads of the step
-    interference : contact to its overlap at the end of the step, length; it grows linearly over the step
+    interference : contact to its overlap at the end of the step, length, a number or what varies over the side; it
+        grows linearly over the step
     inactive : contacts switched off from here on: their forces go linearly to zero over the step
     active : contacts switched on again: they touch where they meet from here on, with no slip behind them; what
         overlaps at that moment is pressed out linearly over the step
@@ -69,7 +71,7 @@ class Step(Short):
     repeat: int = 1
     at: Sequence[float] | int | Literal["events"] = ()
     friction: Mapping[str, float | tuple[float, float] | Literal["stick"]] = field(default_factory=dict)
-    interference: Mapping[str, float] = field(default_factory=dict)
+    interference: Mapping[str, Varying] = field(default_factory=dict)
     inactive: Sequence[str] = ()
     active: Sequence[str] = ()
     release: Sequence[str] = ()
@@ -106,7 +108,7 @@ class Step(Short):
         self._set("at", _times(self.at))
         self._set("friction", {name: _coefficient(value, name) for name, value in _table(self.friction, "friction")})
         overlaps = _table(self.interference, "interference")
-        self._set("interference", {name: number(value, ("interference", name)) for name, value in overlaps})
+        self._set("interference", {name: _overlap(value, ("interference", name)) for name, value in overlaps})
         for key in ("active", "inactive"):
             self._set(key, _names(getattr(self, key), key, "contacts"))
         for key in ("release", "hold", "restore"):
@@ -120,6 +122,11 @@ class Step(Short):
 
     def _set(self, key: str, value: Any) -> None:
         object.__setattr__(self, key, MappingProxyType(value) if isinstance(value, dict) else value)
+
+    @property
+    def varies(self) -> bool:
+        """Whether any interference varies over its side."""
+        return any(not isinstance(value, float) for value in self.interference.values())
 
     @property
     def follows_jumps(self) -> bool:
@@ -187,6 +194,10 @@ def _table(value: Any, key: str) -> list[tuple[str, Any]]:
 
 def _coefficient(value: Any, name: str) -> float | tuple[float, float] | str:
     return "stick" if value == "stick" else coefficient(value, ("friction", name))
+
+
+def _overlap(value: Any, where: Where) -> Varying:
+    return number(value, where) if isinstance(value, float | int) else varying(value, where)
 
 
 def _times(at: Any) -> tuple[float, ...] | str:

@@ -14,6 +14,7 @@ from signorini.fem.space import Space
 from signorini.interface.interface import Interface
 from signorini.model.model import Model
 from signorini.model.stage import Stage
+from signorini.model.varying import NodeValues, Varying
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,8 +87,15 @@ def loading_of(
     largest = {name: max(abs(end[name]) for end in stage.ends) for name in stage.ends[0]}
     force = sum((largest[name] * float(np.abs(f).sum()) for name, f in loads.items()), 0.0)
     moved = [largest[name] * float(np.abs(u).max()) for name, u in prescribed.items()]
-    own = Loading(force=force, imposed=max([*moved, *stage.interference.values()], default=0.0))
+    overlaps = [value if isinstance(value, float) else _most(value) for value in stage.interference.values()]
+    own = Loading(force=force, imposed=max([*moved, *overlaps], default=0.0))
     return own.and_then(before or Loading())
+
+
+def _most(overlap: Varying) -> float:
+    """The largest of values at nodes, which steps have of what varies over sides."""
+    assert isinstance(overlap, NodeValues)
+    return float(overlap.values.max())
 
 
 def data_scale(space: Space, model: Model, loading: Loading, interface: Interface) -> Scale:
