@@ -198,3 +198,13 @@ def test_what_bodies_that_twist_do_not_do():
     ):
         with pytest.raises(sg.InputError, match=words):
             replace(model, **changes)
+
+
+def test_turning_around_the_axis_is_no_large_motion():
+    """A shaft that spins in its hub by a radian is as it was; one that is twisted so, or pulled so far, is not."""
+    spun, drawn = (sg.solve(fit_under_torque(turn=turn, pull=pull)).last for turn, pull in ((1.0, 0.0), (0.0, 2.0)))
+    assert not any("holds for small" in note for note in spun.notes)
+    assert any("contact 'fit' slips by up to 1.9" in note for note in drawn.notes)
+    held = [sg.Support("bottom", u=(0, 0, 0)), sg.Support("top", u=(0, 0, "x"))]
+    wrung = sg.solve(replace(shaft_in_torsion(), supports=held, loads=[])).last
+    assert any("body 'block' strains or turns by" in note for note in wrung.notes)

@@ -177,19 +177,27 @@ def _layers(facets: list[IntArray], one: IntArray, two: IntArray, closed: BoolAr
 
 
 def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
-    """Bodies that strain or turn by a quarter of their size, contacts that slip by a tenth of theirs."""
+    """Bodies that strain or turn by a quarter of their size, contacts that slip by a tenth of theirs.
+
+    Around the axis bodies of revolution turn and slip by any angle: they are the same all around.
+    """
     u = state.displacement
     displacement = prepared.space.at_nodes(prepared.frames.elastic(u) if prepared.turns else u)
     for part in prepared.parts:
         if part.kind == ConnectedBody.kind:
-            change = float(np.linalg.norm(extent(displacement[part.nodes]))) / (2.0 * part.size)
+            moved = displacement[part.nodes]
+            if prepared.model.twists:
+                radii = prepared.space.mesh.points[part.nodes, 0]
+                moved = moved - np.outer(radii, [0.0, 0.0, moved[:, 2] @ radii / max(radii @ radii, 1e-300)])
+            change = float(np.linalg.norm(extent(moved))) / (2.0 * part.size)
             if change > _STRAINED:
                 yield (
                     f"{part.label} strains or turns by {change:.0%} of its size: equilibrium is that of the undeformed "
                     "bodies, which holds for small displacements"
                 )
     interface = prepared.interface
-    slip = np.where(state.status == OPEN, 0.0, np.linalg.norm(state.slip, axis=0))
+    along = state.slip[: prepared.model.dimension - 1]
+    slip = np.where(state.status == OPEN, 0.0, np.linalg.norm(along, axis=0))
     for i, contact in enumerate(prepared.model.contacts):
         own = (interface.contact == i) & (state.status != OPEN)
         if not own.any():
