@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.gallery import sliding as gallery
 from signorini.gallery.sliding import PRESSING, dragged_cylinder
 from signorini.linalg import registry
 from signorini.output.archive import read_archive
@@ -246,3 +247,12 @@ def test_what_does_not_go_with_it_is_refused(given: dict[str, object], words: st
     """By the key of the contact."""
     with pytest.raises(sg.InputError, match=words):
         sg.Contact("a", "b", **{"sliding": "finite", **given})
+
+
+def test_a_wheel_on_a_bed_hundreds_of_half_widths_deep_keeps_its_digits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pairs far from where it touches see more of how it turns than those that press."""
+    monkeypatch.setattr(gallery, "_DEPTH", 400.0)
+    wheel = gallery.free_wheel(friction=0.05, ways=(0.25, 0.25), across=1)
+    (press,) = sg.solve(replace(wheel, steps=wheel.steps[:1])).steps
+    assert press.path == "exact"
+    assert press.certificate.worst < 1e-11

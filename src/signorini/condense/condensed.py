@@ -201,20 +201,25 @@ class Condensed:
         both = np.concatenate([compliance[None], self.compliance[1:]])
         return replace(self, compliance=both, **_image(self.response, self.root, both))
 
-    def paired(self, B: sp.csr_array, interface: Interface, stiffness: float) -> Condensed:
+    def paired(self, B: sp.csr_array, interface: Interface, stiffness: float, reach: float) -> Condensed:
         """Bodies whose pairs are others; nothing is factorised again.
+
+        Where contact alone holds a body pairs that are far from it see the most of how it turns: with D as it is they
+        would have nearly all of an orthonormal R, and resultants of the pairs that press few digits.
 
         Parameters
         ----------
         B : (d n, z) relative displacements of the pairs in terms of the free displacements, all of them kept ones
         interface : the pairs, as many as before; those that were tied are as they were
         stiffness : as of `condense`
+        reach : gap, length, beyond which D falls with its square
         """
         assert isinstance(self.response, ByNodes)
         seen, _, held, active = active_pairs(B, interface, np.ones(len(interface), np.bool_))
         B_c = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]][:, self.dofs])
         response = replace(self.response, B=B_c)
-        return replace(self, held=held, **_seen_by(active, interface, response, self.K, B_c, stiffness))
+        near = np.minimum(1.0, reach / np.maximum(interface.gap[active], reach)) if response.rigid.size else None
+        return replace(self, held=held, **_seen_by(active, interface, response, (self.K, B_c), stiffness, near))
 
     def moving(self, ways: Array) -> Condensed:
         """Bodies of whose k rigid motions only some combinations (k, m) occur: springs hold the others."""
@@ -272,15 +277,29 @@ def condense(
             parts = make_body_blocks(factorisation.schur(), kept.tied, rigid[dofs], size=size)
             parts = parts.inverted() if len(bodies.kept) else parts
             response = ByNodes(factorisation=factorisation, parts=parts, B=B_c, rigid=rigid[dofs])
-        found = _seen_by(active, interface, response, K_c, B_c, stiffness)
+        found = _seen_by(active, interface, response, (K_c, B_c), stiffness)
         return Condensed(held=kept.held, dofs=dofs, ties=ties, K=K_c, **found)
 
 
 def _seen_by(
-    active: BoolArray, interface: Interface, response: Response, K: sp.csr_array, B: sp.csr_array, stiffness: float
+    active: BoolArray,
+    interface: Interface,
+    response: Response,
+    contact: tuple[sp.csr_array, sp.csr_array],
+    stiffness: float,
+    near: Array | None = None,
 ) -> dict[str, Any]:
-    """What active pairs make of the response of the bodies, as fields of `Condensed`; the arguments as there."""
+    """What active pairs make of the response of the bodies, as fields of `Condensed`; the arguments as there.
+
+    Parameters
+    ----------
+    active, interface, response, stiffness : as of `Condensed` and `condense`
+    contact : K between the contact dofs, and B of the active pairs
+    near : (a,) by what roots of D are less; None: by nothing
+    """
+    K, B = contact
     root = np.sqrt(interface_stiffness(K, B, interface, np.flatnonzero(active), stiffness))
+    root = root if near is None else near * root
     compliance = interface.compliance[:, active]
     image = _image(response, root, compliance)
     return {"response": response, "active": active, "root": root, "B": B, "compliance": compliance, **image}

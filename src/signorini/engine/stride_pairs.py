@@ -61,7 +61,7 @@ def paired(prepared: Prepared, interface: Interface) -> Prepared:
     interface : with as many pairs, in the same order
     """
     B = sp.csr_array(interface.B @ prepared.constraints.transform)
-    condensed = prepared.paths.condensed.paired(B, interface, prepared.scale.stiffness)
+    condensed = prepared.paths.condensed.paired(B, interface, prepared.scale.stiffness, stride_of(prepared))
     if prepared.absent.any():
         condensed = condensed.among(~prepared.absent)
     elastic = CondensedSolver.of(condensed, interface, prepared.scale, prepared.settings)
