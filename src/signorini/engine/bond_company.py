@@ -3,7 +3,11 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from signorini.arrays import BoolArray
 from signorini.errors import InputError
+from signorini.interface.interface import Interface
 from signorini.model.model import Model
 
 _ITERATED = (
@@ -50,6 +54,27 @@ def refuse_beside_bonds(model: Model) -> None:
             raise InputError(
                 'is "auto", but bonds are followed exactly; expected a number or none', where=("step", i, "increments")
             )
+
+
+def refuse_held(model: Model, interface: Interface, held: BoolArray) -> None:
+    """Refuse bonds of pairs whose both sides supports move.
+
+    Parameters
+    ----------
+    model, interface : bodies and pairs
+    held : (n,) pairs that supports hold on both sides
+
+    Raises
+    ------
+    InputError
+        With the contact of the first, and its node.
+    """
+    assert interface.cohesion is not None
+    found = np.flatnonzero(held & (interface.cohesion.most > 0.0))
+    if len(found):
+        number = model.mesh.labels[interface.node[found[0]]]
+        words = f"bonds node {number}, whose both sides supports hold; expected one side there free to move"
+        raise InputError(words, where=("contact", int(interface.contact[found[0]]), "cohesion"))
 
 
 def refuse_iterated(model: Model) -> None:

@@ -8,7 +8,7 @@ others on their lines: a jump, whose energy beyond what bonds and friction take 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -36,6 +36,9 @@ _RATES_TRIED = 20
 
 _RELEASES = 1000
 """Parts of one jump in which other bonds begin to open or let go with the first, at most."""
+
+_JUMPS = 100
+"""Of bonds at one load, one after the other, at most."""
 
 _AT_ONCE = 1e-12  # part of the way: what ends within it should not have begun so
 _WIDTH = 1e-8  # of the strength, or of the opening: how far off its line a bond may be
@@ -202,12 +205,13 @@ class _Watch:
         return replace(until, events=tuple(events), outcome=Outcome.DISTURBED, message=words)
 
 
-def broken(part: StepPart, *, stops: bool) -> FollowedPart | None:
+def broken(part: StepPart, behind: Sequence[FollowedPart], *, stops: bool) -> FollowedPart | None:
     """What bonds do at the load where a part begins that cannot go on gradually; None where all can.
 
     Parameters
     ----------
     part : of a step
+    behind : what was followed of it
     stops : whether a history ends at a jump
 
     Raises
@@ -219,8 +223,15 @@ def broken(part: StepPart, *, stops: bool) -> FollowedPart | None:
     none = np.zeros(len(prepared.interface), np.bool_)
     if not state.forces.any():
         return None
+    if len(behind) >= _JUMPS and all(found.snapshots[0].what == "landing" for found in behind[-_JUMPS:]):
+        words = told(
+            f"{part.where} at {part.interval.low:.6%}: bonds let go, hold again, and let go",
+            remedy='bonds that hold no shear, shear = "free", or a finer mesh',
+            evidence=f"{_JUMPS} jumps at one load",
+        )
+        raise SolveFailed(words, status=Outcome.NOT_FOUND)
     found = course(prepared, state, part.end, none, none)
-    sheared = left_shear(found.posed)
+    sheared = left_shear(prepared, state)
     if not (found.breaking | sheared).any():
         return None
     if stops:
@@ -247,6 +258,7 @@ def _released(part: StepPart, breaking: BoolArray, sheared: BoolArray) -> tuple[
     here = replace(part, end=point)
     driven, gone, codes = breaking.copy(), breaking.copy(), None
     for _ in range(_RELEASES):
+        sheared = sheared | left_shear(prepared, state)
         found = course(prepared, state, point, driven, sheared, codes)
         if found.breaking.any():
             driven, gone = driven | found.breaking, gone | found.breaking
@@ -256,7 +268,8 @@ def _released(part: StepPart, breaking: BoolArray, sheared: BoolArray) -> tuple[
         if segment.outcome not in (Outcome.DISTURBED, Outcome.FOLLOWED):
             raise _nowhere(found.posed, part, gone, segment)
         if segment.followed:
-            state = _recovered(found.posed, path, state, driven & (bonds_of(prepared, state)[0].opening == 0.0))
+            brittle = bonds_of(prepared, state)[0].opening == 0.0
+            state = _recovered(found.posed, path, state, driven & brittle, sheared)
             return gone, replace(state, point=replace(state.point, pull=_pull(prepared, state)))
         factor, ends = watch.first(segment)
         landed = ends[2]
@@ -267,7 +280,7 @@ def _released(part: StepPart, breaking: BoolArray, sheared: BoolArray) -> tuple[
         codes = None
         if factor > _AT_ONCE:
             cut = replace(path, segment=segment.until(factor))
-            state = _recovered(found.posed, cut, state, np.zeros_like(driven))
+            state = _recovered(found.posed, cut, state, np.zeros_like(driven), np.zeros_like(driven))
         driven = driven & ~landed
     words = f"{_RELEASES} parts of a jump, as many as are followed, are behind"
     raise SolveFailed(_words(part, gone, words), status=Outcome.NOT_FOUND)
@@ -284,11 +297,11 @@ def _nowhere(posed: Posed, part: StepPart, gone: BoolArray, segment: Segment) ->
 
 def _pull(prepared: Prepared, state: State) -> Array | None:
     none = np.zeros(len(prepared.interface), np.bool_)
-    return pose(prepared, state, none, none).state.point.pull
+    return pose(prepared, state, none, none, none).state.point.pull
 
 
-def _recovered(posed: Posed, path: BondsPath, state: State, gone: BoolArray) -> State:
-    """The state at the end of a part of a jump, with bonds that are gone for good."""
+def _recovered(posed: Posed, path: BondsPath, state: State, gone: BoolArray, sheared: BoolArray) -> State:
+    """The state at the end of a part of a jump, with bonds that are gone for good, all of them or along the sides."""
     factor = path.segment.pieces[-1].factor
     point = replace(state.point, pull=None)
     assert path.part.end.pull is not None
@@ -296,7 +309,7 @@ def _recovered(posed: Posed, path: BondsPath, state: State, gone: BoolArray) -> 
     pull = (1.0 - factor) * posed.state.point.pull + factor * path.part.end.pull
     now = recovered(posed.prepared, posed.state, replace(point, pull=pull), path.segment.end)
     cohesion, bonds = bonds_of(posed.prepared, state)
-    return replace(now, bonds=cohesion.after(bonds, now.gap, gone), work=state.work, released=state.released)
+    return replace(now, bonds=cohesion.after(bonds, now.gap, gone, sheared), work=state.work, released=state.released)
 
 
 def _words(part: StepPart, breaking: BoolArray, evidence: str = "", leaves: str = "") -> str:

@@ -73,13 +73,20 @@ def bonds_of(prepared: Prepared, state: State) -> tuple[PairCohesion, Bonds]:
     return cohesion, bonds
 
 
-def pose(prepared: Prepared, state: State, soft: BoolArray, driven: BoolArray, codes: IntArray | None = None) -> Posed:
+def pose(
+    prepared: Prepared,
+    state: State,
+    soft: BoolArray,
+    driven: BoolArray,
+    sheared: BoolArray,
+    codes: IntArray | None = None,
+) -> Posed:
     """A state as the law sees it; bonds that are not told go on as their damage says.
 
     Parameters
     ----------
     prepared, state : condensed, and where the history stands
-    soft, driven : (n,) bonds that soften, and whose forces are given
+    soft, driven, sheared : (n,) bonds that soften, whose forces are given, and of which those along the sides are
     codes : as of `course`
     """
     cohesion, bonds = bonds_of(prepared, state)
@@ -92,13 +99,13 @@ def pose(prepared: Prepared, state: State, soft: BoolArray, driven: BoolArray, c
     back = begun & opens & ~soft & ~driven & asked
     given = soft | back | driven
     pull = np.where(given, state.forces, 0.0)
+    pull[1:, sheared] = state.forces[1:, sheared]
     pull[0] -= np.where(held, _RESERVE * cohesion.most, 0.0)
-    status = np.where(held, np.where(cohesion.sticks, STICK, SLIP), np.where(given, OPEN, state.status))
+    sticks = cohesion.sticking(bonds) & ~sheared
+    status = np.where(held, np.where(sticks, STICK, SLIP), np.where(given, OPEN, state.status))
     gap = np.where(held, 0.0, state.gap)
     interface = prepared.interface
-    sticking = (
-        replace(interface, friction=interface.friction.bonded(held, cohesion.sticks)) if held.any() else interface
-    )
+    sticking = replace(interface, friction=interface.friction.bonded(held, sticks)) if held.any() else interface
     solver = prepared.solver.under(sticking, prepared.scale, np.zeros(len(held), np.bool_))
     return Posed(
         prepared=replace(prepared, interface=sticking, solver=solver),
@@ -144,9 +151,9 @@ def course(
     codes : (a,) states of the active pairs from here on, where they are known; as the state says where not
     """
     cohesion, bonds = bonds_of(prepared, state)
-    soft, none = np.zeros_like(driven), np.zeros_like(driven)
+    soft, none = sheared & ~driven, np.zeros_like(driven)
     for trial in range(_TRIALS):
-        posed = pose(prepared, state, soft, driven, codes)
+        posed = pose(prepared, state, soft, driven, sheared, codes)
         start = path_state(posed.prepared, posed.state)
         change = np.zeros_like(state.forces)
         change[:, driven] = -state.forces[:, driven]
@@ -176,11 +183,13 @@ def course(
     return BondCourse(posed=posed, pull=change, breaking=soft)
 
 
-def left_shear(posed: Posed) -> BoolArray:
-    """(n,) Bonds that open while forces along the sides are still there, which they no longer bear."""
-    cohesion, _ = bonds_of(posed.prepared, posed.state)
-    along = np.abs(posed.state.forces[1:]).max(axis=0)
-    return np.asarray(posed.springs & (along > _AT_LIMIT * cohesion.most))
+def left_shear(prepared: Prepared, state: State) -> BoolArray:
+    """(n,) Bonds at their strength, or open, with forces along the sides that they no longer bear."""
+    cohesion, bonds = bonds_of(prepared, state)
+    full = cohesion.holds(bonds) & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most)
+    opens = (bonds.damage > 0.0) & (bonds.damage < 1.0) & (state.gap > _CLOSED * cohesion.opening)
+    along = np.abs(state.forces[1:]).max(axis=0)
+    return np.asarray((full | opens) & (along > _AT_LIMIT * cohesion.most))
 
 
 def stiffness(posed: Posed) -> Array:
@@ -252,8 +261,8 @@ class _System:
         active, image = condensed.active, paths.law.image
         held, open_now = posed.held[active], (posed.springs | posed.driven)[active]
         status = plain(start.state if codes is None else codes)
-        bonded = np.where(bonds_of(posed.prepared, posed.state)[0].sticks[active], STICK, SLIP)
-        status = np.where(held, bonded, np.where(open_now, OPEN, status))
+        opens = open_now if codes is None else posed.springs[active]
+        status = np.where(held, start.state, np.where(opens, OPEN, status))
         spring = posed.springs[active]
         normal = np.flatnonzero((status != OPEN) | spring)
         tangents = [n * (k + 1) + np.flatnonzero((status == STICK) & ~law.locked[k]) for k in range(law.directions - 1)]

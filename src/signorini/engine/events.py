@@ -169,7 +169,7 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings 
 def _broken(part: StepPart, behind: list[FollowedPart], jumps: bool) -> FollowedPart | None:
     """What bonds do at the load where a part begins that cannot go on gradually; None where all can."""
     try:
-        return broken(part, stops=not jumps)
+        return broken(part, behind, stops=not jumps)
     except SolveFailed as lost:
         raise keep(lost, behind) from None
 

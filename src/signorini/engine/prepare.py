@@ -13,7 +13,7 @@ from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
 from signorini.condense.ties import Ties
-from signorini.engine.bond_company import refuse_iterated
+from signorini.engine.bond_company import refuse_held, refuse_iterated
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_model
 from signorini.engine.closure_solver import ClosureSolver
@@ -361,8 +361,10 @@ def condensed_model(
         if condensed.ties is not None:
             data["constraints"] = _with_ties(examined, condensed.ties)
         solver = CondensedSolver.of(condensed, interface, data["scale"], settings)
-    if condensed is None and interface.cohesion is not None:
-        refuse_iterated(examined.model)
+    if interface.cohesion is not None:
+        if condensed is None:
+            refuse_iterated(examined.model)
+        refuse_held(examined.model, interface, solver.held)
     return Prepared(
         **data,
         K=K,

@@ -92,10 +92,12 @@ class Bonds:
     ----------
     damage : (n,) the largest opening over that at which they are gone, 0 .. 1; 1 where there is none
     taken : (n,) energy that they have taken for good
+    loose : (n,) those that have reached their strength and hold the sides from sliding no more
     """
 
     damage: Array
     taken: Array
+    loose: BoolArray
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -124,27 +126,33 @@ class PairCohesion:
     @property
     def unharmed(self) -> Bonds:
         """Nothing has happened yet."""
-        return Bonds(damage=frozen(self.most == 0.0), taken=frozen(np.zeros_like(self.most)))
+        none = self.most == 0.0
+        return Bonds(damage=frozen(none), taken=frozen(np.zeros_like(self.most)), loose=frozen(none, np.bool_))
 
     def holds(self, bonds: Bonds) -> BoolArray:
         """(n,) Bonds that have not begun to open."""
         return np.asarray((self.most > 0.0) & (bonds.damage == 0.0))
 
-    def after(self, bonds: Bonds, gap: Array, gone: BoolArray | None = None) -> Bonds:
+    def sticking(self, bonds: Bonds) -> BoolArray:
+        """(n,) Bonds that hold the sides from sliding too."""
+        return self.holds(bonds) & self.sticks & ~bonds.loose
+
+    def after(self, bonds: Bonds, gap: Array, gone: BoolArray | None = None, sheared: BoolArray | None = None) -> Bonds:
         """What bonds remember after openings.
 
         Parameters
         ----------
         bonds : what they remembered
         gap : (n,) openings, length; NaN where nobody has looked
-        gone : (n,) those that have let go at once
+        gone, sheared : (n,) those that have let go at once, all of them or along the sides
         """
         seen = np.divide(gap, self.opening, out=np.zeros_like(gap), where=self.opening > 0.0)
         seen = np.where(np.isfinite(seen) & (seen > _UNHARMED), np.minimum(seen, 1.0), 0.0)
         damage = np.maximum(bonds.damage, np.where(seen > 1.0 - _UNHARMED, 1.0, seen))
         if gone is not None:
             damage = np.where(gone, 1.0, damage)
-        return Bonds(damage=frozen(damage), taken=frozen(0.5 * self.most * self.opening * damage))
+        loose = bonds.loose if sheared is None else frozen(bonds.loose | sheared, np.bool_)
+        return Bonds(damage=frozen(damage), taken=frozen(0.5 * self.most * self.opening * damage), loose=loose)
 
     def tension(self, bonds: Bonds, gap: Array) -> Array:
         """(n,) The most tension, force, that bonds bear at openings (n,): on the line of their damage where they open.

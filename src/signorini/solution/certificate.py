@@ -137,7 +137,7 @@ def certify(
         pressing = r[0] + interface.cohesion.tension(state.bonds, scale.length * gap)
         normal, held = (
             pressing / scale.force,
-            held | (interface.cohesion.holds(state.bonds) & interface.cohesion.sticks),
+            held | interface.cohesion.sticking(state.bonds),
         )
     gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
     bound = np.where(held, np.inf, interface.most(pressing) / scale.force)
