@@ -156,3 +156,49 @@ def test_bodies_as_they_are_know_no_bonds():
     solution = sg.solve(bonded_bar(GENTLE, 0.001))
     with pytest.raises(sg.InputError, match="modes do not know bonds"):
         sg.natural_modes(solution, 1)
+
+
+@pytest.mark.slow
+def test_an_arm_is_peeled_off_a_base_that_does_not_match():
+    """With forces along the sides too, much of the way by jumps, and all energy is there."""
+    meshes = {
+        "arm": sg.rectangle(x=np.linspace(0, 4, 17), y=[0, 0.5, 1]),
+        "base": sg.rectangle(x=np.linspace(0, 4, 14), y=[-1, -0.5, 0]),
+    }
+    bond = sg.Cohesion(10.0, opening=0.006)
+    model = sg.Model(
+        sg.join(meshes),
+        kind="plane stress",
+        bodies=[sg.Body(name, sg.Elastic(E=1e4, nu=0.3), formulation="incompatible") for name in meshes],
+        supports=[sg.Support("base.bottom", u=(0, 0)), sg.Support("arm.left", u=(None, 1.0), name="pull")],
+        contacts=[sg.Contact("arm.bottom", "base.top", cohesion=bond, friction=0.3, name="bond")],
+        steps=[sg.Step(scale={"pull": lift}) for lift in (0.01, 0.03, 0.005)],
+    )
+    begun, half, back = sg.solve(model).steps
+    assert 0.0 < (begun.contacts[0].damage == 1.0).mean() < 1.0
+    assert np.abs(begun.contacts[0].traction).max() > 0.1
+    for step in (begun, half, back):
+        assert abs(step.energy_defect) < 1e-14
+        torn = float(step.contacts[0].area @ np.minimum(step.contacts[0].damage, 1.0))
+    assert begun.dissipation + half.dissipation + back.dissipation == pytest.approx(bond.energy * torn, rel=1e-2)
+    assert half.released > 0.0
+
+
+def test_a_cube_is_torn_off_in_space():
+    upper = sg.box(x=[0, 0.5, 1], y=[0, 0.5, 1], z=[0, 1])
+    lower = sg.box(x=[0, 1 / 3, 2 / 3, 1], y=[0, 0.5, 1], z=[-0.5, 0])
+    model = sg.Model(
+        sg.join({"upper": upper, "lower": lower}),
+        kind="3d",
+        bodies=[sg.Body(name, sg.Elastic(E=1000.0, nu=0.3)) for name in ("upper", "lower")],
+        supports=[sg.Support("lower.bottom", u=(0, 0, 0)), sg.Support("upper.top", u=(0, 0, 1.0), name="pull")],
+        contacts=[sg.Contact("upper.bottom", "lower.top", cohesion=GENTLE, name="bond")],
+        steps=[sg.Step(scale={"pull": stretch}) for stretch in (0.008, 0.03)],
+    )
+    held, gone = sg.solve(model).steps
+    assert (held.contacts[0].pressure < 0.0).all()
+    assert held.dissipation + gone.dissipation == pytest.approx(GENTLE.energy, rel=1e-12)
+    assert abs(gone.energy_defect) < 1e-9
+    rubbing = replace(model, contacts=[replace(model.contacts[0], friction=0.3)])
+    with pytest.raises(sg.InputError, match=r"contact\[0\].friction: turns between events"):
+        sg.solve(rubbing)

@@ -174,8 +174,9 @@ class _Watch:
 
     def _closes(self, piece: Breakpoint) -> BoolArray:
         """(n,) Bonds that soften no longer."""
-        start = self.posed.state.gap
-        return np.asarray(self.posed.soft & (self._seen(piece)[0] < start * (1.0 - _WIDTH)))
+        posed, start = self.posed, self.posed.state.gap
+        opening = bonds_of(posed.prepared, posed.state)[0].opening
+        return np.asarray(posed.soft & (self._seen(piece)[0] < start - _WIDTH * opening))
 
     def first(self, segment: Segment) -> tuple[float, BoolArray]:
         """Where bonds leave first in the last piece of a segment, and (5, n) what ends their lines: see `_beyond`."""

@@ -95,7 +95,8 @@ def _open_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
     states = (followed.before, *(shot.state for shot in followed.snapshots))
     for i, contact in enumerate(prepared.model.contacts):
         own = interface.contact == i
-        if all((state.status[own] == OPEN).all() for state in states):
+        bonded = contact.cohesion is not None  # those that were torn off were together
+        if not bonded and all((state.status[own] == OPEN).all() for state in states):
             yield (
                 f"contact '{contact.label}' is open everywhere: its sides are {gap[own].min():.4g} apart, "
                 f"{interface.gap[own].min():.4g} to begin with"
@@ -121,7 +122,7 @@ def patch_notes(prepared: Prepared, state: State) -> Iterator[str]:
     interface = prepared.interface
     for i, contact in enumerate(prepared.model.contacts):
         own = np.flatnonzero(interface.contact == i)
-        if contact.tied or not len(own):
+        if contact.tied or contact.cohesion is not None or not len(own):
             continue
         closed = state.status[own] != OPEN
         few = _fewest(prepared, i, interface.node[own], closed) if closed.any() and not closed.all() else _PAIRS_ACROSS

@@ -19,6 +19,7 @@ from signorini.checks import choice, number
 from signorini.errors import InputError
 
 _TOUCHING = 1e-9  # of the size of the bodies: a gap of sides that touch
+_GONE = 1e-10  # of the opening at which a bond is gone: less short of it is rounding
 _UNHARMED = 1e-12  # of the opening at which a bond is gone: less is rounding
 
 
@@ -148,7 +149,7 @@ class PairCohesion:
         """
         seen = np.divide(gap, self.opening, out=np.zeros_like(gap), where=self.opening > 0.0)
         seen = np.where(np.isfinite(seen) & (seen > _UNHARMED), np.minimum(seen, 1.0), 0.0)
-        damage = np.maximum(bonds.damage, np.where(seen > 1.0 - _UNHARMED, 1.0, seen))
+        damage = np.maximum(bonds.damage, np.where(seen > 1.0 - _GONE, 1.0, seen))
         if gone is not None:
             damage = np.where(gone, 1.0, damage)
         loose = bonds.loose if sheared is None else frozen(bonds.loose | sheared, np.bool_)
