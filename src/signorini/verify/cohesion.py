@@ -61,7 +61,7 @@ def double_cantilever() -> Iterator[Check]:
     crack = bond.energy * ARM_MODULUS * inertia / limit * 0.02
     yield from checks_of(
         "B21 arm peeled off by a moment",
-        ("moment, M^2 = 2 E I G", abs(turned[1].rigid_bodies["grip"].moment), limit, 5e-3),
+        ("moment, M^2 = 2 E I G", abs(float(turned[1].rigid_bodies["grip"].moment)), limit, 5e-3),
         ("work of 0.02 radians", turned[1].work, 0.02 * limit, 5e-3),
         ("energy taken meanwhile", turned[1].dissipation, crack, 4e-2),
         source="beam theory, energy per area of a growing crack",
