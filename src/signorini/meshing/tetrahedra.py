@@ -42,17 +42,8 @@ def tetrahedra(mesh: Mesh) -> Mesh:
     if mesh.points.shape[1] != 3 or len(mesh.cells) != 1 or not set(mesh.cells) <= set(_CUT):
         raise InputError(f"is {mesh!r}; expected hexahedra of 8 or of 27 nodes", where=("mesh",))
     ((family, cells),) = mesh.cells.items()
-    tip = np.argmin(cells[:, :8], axis=1)
-    found: list[IntArray] = []
-    for face in FACETS["hexahedron"]:
-        away = (np.array(face) != tip[:, None]).all(axis=1)
-        for triangle in np.moveaxis(_halves(cells[away][:, face]), 1, 0):
-            local = np.column_stack([np.array(face)[triangle], tip[away]])
-            found.append(np.column_stack([np.flatnonzero(away), local]))
-    order = np.concatenate(found)
-    order = order[np.argsort(order[:, 0], kind="stable")]
-    owner, corners = order[:, 0], order[:, 1:]
-    nodes = np.take_along_axis(cells[owner], corners, axis=1)
+    owner, nodes = cone_simplices(family, cells[:, :8])
+    corners = np.argmax(cells[owner][:, None, :8] == nodes[:, :, None], axis=2)
     if family == "hexahedron27":
         places = np.array(HEXAHEDRON)
         middles = np.stack([(places[corners[:, a]] + places[corners[:, b]]) // 2 for a, b in _EDGES], axis=1)
@@ -63,9 +54,37 @@ def tetrahedra(mesh: Mesh) -> Mesh:
         points=mesh.points,
         cells={_CUT[family]: nodes},
         bodies={name: (6 * own[:, None] + np.arange(6)).ravel() for name, own in mesh.bodies.items()},
-        boundaries={name: tuple(_triangles(faces[:, :4]) for faces in mesh.facets(name)) for name in mesh.boundaries},
+        boundaries={name: tuple(triangles_of(faces[:, :4]) for faces in mesh.facets(name)) for name in mesh.boundaries},
         nodes=mesh.nodes,
     )
+
+
+def cone_simplices(family: str, corners: IntArray) -> tuple[IntArray, IntArray]:
+    """Triangles or tetrahedra of cells: their smallest corner joined with the facets away from it.
+
+    Diagonals of faces go through the smallest number, so that neighbours agree.
+
+    Parameters
+    ----------
+    family : of the cells
+    corners : (m, k) their nodes
+
+    Returns
+    -------
+    The cell of each, ascending, and its corners (n, 3 or 4)
+    """
+    tip = np.argmin(corners, axis=1)
+    found: list[IntArray] = []
+    for face in FACETS[family.rstrip("0123456789")]:
+        away = (np.array(face) != tip[:, None]).all(axis=1)
+        ends = corners[away][:, face]
+        parts = np.moveaxis(_halves(ends), 1, 0) if len(face) == 4 else np.tile(np.arange(len(face)), (1, len(ends), 1))
+        for part in parts:
+            simplex = np.column_stack([np.take_along_axis(ends, part, axis=1), corners[away, tip[away]]])
+            found.append(np.column_stack([np.flatnonzero(away), simplex]))
+    order = np.concatenate(found)
+    order = order[np.argsort(order[:, 0], kind="stable")]
+    return order[:, 0], order[:, 1:]
 
 
 def _halves(faces: IntArray) -> IntArray:
@@ -74,7 +93,7 @@ def _halves(faces: IntArray) -> IntArray:
     return np.stack([(first + np.array(way)) % 4 for way in ((0, 1, 2), (0, 2, 3))], axis=1)
 
 
-def _triangles(faces: IntArray) -> IntArray:
+def triangles_of(faces: IntArray) -> IntArray:
     """(2 m, 3) Nodes of the triangles of quadrilaterals (m, 4)."""
     halves = _halves(faces)
     return np.concatenate([np.take_along_axis(faces, half, axis=1) for half in (halves[:, 0], halves[:, 1])])

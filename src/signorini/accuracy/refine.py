@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes that are refined where an answer lacks most, until it is as accurate as was asked."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+import numpy as np
+
+from signorini.accuracy.contacts import level_errors, trace_errors
+from signorini.accuracy.curves import curves_of
+from signorini.accuracy.recovery import stress_error
+from signorini.arrays import Array, IntArray
+from signorini.errors import InputError
+from signorini.fem.space import make_space
+from signorini.fem.stress import DeformedBodies
+from signorini.meshing.simplices import Simplices
+from signorini.model.accuracy import Accuracy
+from signorini.model.mesh import CORNERS, NODES_PER_CELL
+from signorini.model.model import Model
+from signorini.model.varying import NodeValues
+from signorini.solution.accuracy import AccuracyResult, MeshLevel
+from signorini.solution.history import History
+
+SHARE = 0.7
+"""Of the squares of the errors of all cells: those that have it are refined (Doerfler)."""
+
+LEVELS = 40
+"""Meshes that are tried at most; each has some 1.5 times the nodes of the one before, so that nodes end it first."""
+
+PAIRS = 10
+"""Pairs across a contact that have to touch, at least: with fewer the ends of the contact are known to a tenth."""
+
+AnyHistory = TypeVar("AnyHistory", bound=History)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Estimate:
+    """Estimated errors of a history on one mesh.
+
+    Attributes
+    ----------
+    pressure, traction, energy : relative
+    squares : (m,) of the energy norm of every cell, of all steps together, over the largest norm of a step
+    pairs : that touch at the end of the step where most do
+    """
+
+    pressure: float
+    traction: float
+    energy: float
+    squares: Array
+    pairs: int
+
+    def of(self, what: str) -> float:
+        """By the name that a request has."""
+        return {"pressure": self.pressure, "traction": self.traction, "energy": self.energy}[what]
+
+
+def estimate(history: History, before: tuple[Simplices, History] | None = None) -> Estimate:
+    """What a history lacks at the ends of its steps.
+
+    Parameters
+    ----------
+    history : solved
+    before : the simplices that it was solved on, and the history of the mesh before
+    """
+    model = history.model
+    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    pressure, friction, scale, pairs = [0.0], [0.0], [0.0], 0
+    squares, norms = np.zeros(model.mesh.number_of_cells), [0.0]
+    for k, step in enumerate(history.steps):
+        stress = stress_error(DeformedBodies.of(space, model, step.displacement, step.factors))
+        squares += stress.squares
+        norms.append(stress.norm_square)
+        found = [trace_errors(space, model, step.contacts, stress)]
+        if before is not None:
+            found.append(level_errors(step.contacts, _carried(model, before, k)))
+        pressure.append(max(one.pressure for one in found))
+        friction.append(max(one.pressure + one.friction for one in found))
+        scale.append(found[0].scale)
+        pairs = max(pairs, sum(int(contact.closed.sum()) for contact in step.contacts))
+    size, norm = max(scale), max(norms)
+    squares = squares / norm if norm > 0.0 else squares
+    return Estimate(
+        pressure=_ratio(max(pressure), size),
+        traction=_ratio(max(friction), size),
+        energy=float(np.sqrt(squares.sum())),
+        squares=squares,
+        pairs=pairs,
+    )
+
+
+def estimated(history: History) -> AccuracyResult:
+    """What is known of the accuracy of a history without another mesh.
+
+    Raises
+    ------
+    InputError
+        For what no estimate knows: bodies that yield, sides that slide far or wear.
+    """
+    refuse(history.model)
+    start = time.perf_counter()
+    found = estimate(history)
+    level = _level(history.model, found, time.perf_counter() - start)
+    return _result(found, (level,), None, "", ())
+
+
+def refined(
+    model: Model, request: Accuracy, solve: Callable[[Model], AnyHistory]
+) -> tuple[AnyHistory, AccuracyResult | None]:
+    """Solve on finer and finer meshes, until errors are below what was asked, or a bound ends it.
+
+    Parameters
+    ----------
+    model : on the mesh to begin with, which says its shape
+    request : how accurate, and how far
+    solve : a model that fits a mesh, certified
+
+    Returns
+    -------
+    The last history, and what is known of its accuracy; None where it was not solved
+
+    Raises
+    ------
+    InputError
+        For models that are not refined, by name.
+    """
+    refuse(model, whole=True)
+    if request.of != "energy" and not model.contacts:
+        raise InputError('asks for pressures and there is no contact; expected of = "energy"', where=("accuracy",))
+    meshes = _Meshes(model)
+    posed, start, before = meshes.first(), time.perf_counter(), None
+    levels: list[MeshLevel] = []
+    while True:
+        begun = time.perf_counter()
+        history = solve(posed)
+        if not history.solved:
+            return history, None
+        found = estimate(history, None if before is None else (meshes.simplices, before))
+        levels.append(_level(posed, found, time.perf_counter() - begun))
+        if _met(request, found, model.dimension, len(levels)):
+            reason = ""
+            break
+        posed = meshes.next(_marked(found.squares))
+        reason = _end(request, len(posed.mesh.points), time.perf_counter() - start, len(levels))
+        if reason:
+            break
+        before = history
+    return history, _result(found, tuple(levels), request, reason, meshes.notes)
+
+
+def refuse(model: Model, *, whole: bool = False) -> None:
+    """Refuse models whose accuracy is not known.
+
+    Parameters
+    ----------
+    model : that is asked about
+    whole : to be solved on other meshes, too
+
+    Raises
+    ------
+    InputError
+        With what it has that an estimate, or another mesh, does not know.
+    """
+    found = [("bodies that yield", model.yields), ("contacts that slide far", model.slides)]
+    found += [("contacts that wear", model.wears)]
+    if whole:
+        found += [("bolts", bool(model.bolts)), ("cyclic symmetries", bool(model.cyclic_symmetries))]
+        found += [
+            ("equations", bool(model.equations)),
+            ("forces given node by node", any(_by_nodes(load.nodal_forces) for load in model.loads)),
+        ]
+        found += [("values given node by node", any(map(_by_nodes, _varying(model))))]
+    for name, there in found:
+        if there:
+            raise InputError(f"does not know {name}; expected a model without", where=("accuracy",))
+
+
+def _varying(model: Model) -> Iterator[object]:
+    """All that may be given node by node."""
+    for load in model.loads:
+        yield from (load.temperature, load.pressure, load.traction)
+    for support in model.supports:
+        yield from support.u
+    for contact in model.contacts:
+        yield from (contact.gap, contact.interference)
+
+
+def _by_nodes(value: object) -> bool:
+    return isinstance(value, np.ndarray | NodeValues)
+
+
+class _Meshes:
+    """A model on finer and finer meshes."""
+
+    def __init__(self, model: Model) -> None:
+        mesh, d = model.mesh, model.dimension
+        self._model, self._curves = model, curves_of(mesh)
+        cut = [family for family in mesh.cells if CORNERS[family] != d + 1]
+        self._order = 1 if not cut and all(CORNERS[family] == NODES_PER_CELL[family] for family in mesh.cells) else 2
+        self.notes = tuple(f"'{name}' follows {curve}" for name, curve in self._curves.items())
+        if cut:
+            kind = "triangles" if d == 2 else "tetrahedra"
+            self.notes += (
+                f"{' and '.join(cut)} cells are cut into quadratic {kind}, which are halved where they lack",
+            )
+        self.simplices = Simplices.of(mesh)
+
+    def first(self) -> Model:
+        """On the simplices of the mesh that was given."""
+        bodies = [
+            replace(body, formulation=None) if body.formulation == "incompatible" else body
+            for body in self._model.bodies
+        ]
+        self._model = replace(self._model, bodies=bodies, mesh=self.simplices.mesh(self._order, self._curves))
+        return self._model
+
+    def next(self, marked: IntArray) -> Model:
+        """On simplices refined where they are marked."""
+        self.simplices = self.simplices.refined(marked, self._curves)
+        return replace(self._model, mesh=self.simplices.mesh(self._order, self._curves))
+
+
+def _carried(model: Model, before: tuple[Simplices, History], step: int) -> list[tuple[Array, Array]]:
+    """Of every contact pressure and friction of the mesh before at the corners of this one."""
+    simplices, history = before
+    older = int((simplices.parents[:, 0] == simplices.parents[:, 1]).sum())
+    found = []
+    for contact in history.steps[step].contacts:
+        values = np.zeros((older, 1 + model.dimension))
+        values[contact.node, 0], values[contact.node, 1:] = contact.pressure, contact.shear
+        carried = simplices.carried(values)
+        found.append((carried[:, 0], carried[:, 1:]))
+    return found
+
+
+def _marked(squares: Array) -> IntArray:
+    """The fewest cells that have `SHARE` of the squares."""
+    order = np.argsort(-squares, kind="stable")
+    return order[: int(np.searchsorted(np.cumsum(squares[order]), SHARE * squares.sum())) + 1]
+
+
+def _met(request: Accuracy, found: Estimate, dimension: int, levels: int) -> bool:
+    """Whether errors are small enough, of pressures on two meshes and with enough pairs."""
+    if found.of(request.of) > request.error:
+        return False
+    return request.of == "energy" or (levels > 1 and found.pairs >= PAIRS ** (dimension - 1))
+
+
+def _end(request: Accuracy, nodes: int, seconds: float, levels: int) -> str:
+    """Why no finer mesh is tried; empty: it is."""
+    if nodes > request.nodes:
+        return f"the next mesh has {nodes} nodes, more than {request.nodes}"
+    if request.seconds is not None and seconds > request.seconds:
+        return f"{seconds:.1f} s have passed, more than {request.seconds:g}"
+    return f"{levels} meshes were tried" if levels >= LEVELS else ""
+
+
+def _ratio(square: float, scale: float) -> float:
+    """Root of a square over a scale; 1 where nothing presses."""
+    return float(np.sqrt(square / scale)) if scale > 0.0 else 1.0
+
+
+def _level(model: Model, found: Estimate, seconds: float) -> MeshLevel:
+    return MeshLevel(
+        nodes=len(model.mesh.points),
+        pairs=found.pairs,
+        pressure=found.pressure,
+        traction=found.traction,
+        energy=found.energy,
+        seconds=seconds,
+    )
+
+
+def _result(
+    found: Estimate, levels: tuple[MeshLevel, ...], request: Accuracy | None, reason: str, notes: tuple[str, ...]
+) -> AccuracyResult:
+    total = found.squares.sum()
+    return AccuracyResult(
+        pressure=found.pressure,
+        traction=found.traction,
+        energy=found.energy,
+        cells=found.squares / total if total > 0.0 else found.squares,
+        levels=levels,
+        asked=request,
+        reason=reason,
+        notes=notes,
+    )
