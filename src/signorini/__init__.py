@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from signorini.meshing.solid import box, extruded
     from signorini.meshing.surface import mesh_surface, read_surface
     from signorini.meshing.values import read_values
+    from signorini.model.accuracy import Accuracy
     from signorini.model.body import Body
     from signorini.model.bolt import Bolt
     from signorini.model.conditions import Foundation, Load, Support
@@ -66,6 +67,7 @@ if TYPE_CHECKING:
     from signorini.vibration.modes import natural_modes
 
 __all__ = [
+    "Accuracy",
     "Along",
     "ArcLength",
     "Body",
@@ -175,6 +177,7 @@ _HOMES = {
     "signorini.meshing.solid": ("box", "extruded"),
     "signorini.meshing.surface": ("mesh_surface", "read_surface"),
     "signorini.meshing.values": ("read_values",),
+    "signorini.model.accuracy": ("Accuracy",),
     "signorini.model.body": ("Body",),
     "signorini.model.bolt": ("Bolt",),
     "signorini.model.conditions": ("Foundation", "Load", "Support"),

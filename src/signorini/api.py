@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from signorini.accuracy.refine import accurate
 from signorini.arrays import Array
 from signorini.clock import Clock
 from signorini.derivative.differentiable import DifferentiableHistory, tape_of
@@ -25,6 +26,7 @@ from signorini.errors import InputError, one_of
 from signorini.fatigue.criteria import FatigueCriterion
 from signorini.fem.path import PathResult, along
 from signorini.fem.stress import BodyStress
+from signorini.model.accuracy import Asked
 from signorini.model.fatigue import Fatigue
 from signorini.model.model import Model
 from signorini.output.archive import write_archive
@@ -304,9 +306,9 @@ def solve(
     settings: SolverSettings | None = None,
     raise_on_failure: bool = True,
     wellposed: bool = False,
-    clock: Clock | None = None,
-    after_step: Callable[[History], None] | None = None,
+    accuracy: Asked | None = None,
     tape: bool = False,
+    clock: Clock | None = None,
 ) -> Solution:
     """Solve every step of a model and certify every increment.
 
@@ -320,10 +322,11 @@ def solve(
     settings : limits of the methods that solve contact
     raise_on_failure : otherwise a solution whose ``status`` says why is returned, with what was solved before
     wellposed : whether to ask if the solution is the only one: ``solution.wellposedness``
-    clock : counts the seconds and tells progress
-    after_step : is given what is finished after every step but the last, to keep it
+    accuracy : relative error of the pressures that is asked for, 0.01 say, or an :class:`Accuracy`: the mesh is refined
+        until it is met; "estimate": of the mesh as it is. What is known of it is ``solution.accuracy``
     tape : whether to keep the history as it was followed, in memory, for `Solution.derivative`; with ``start`` that of
         a solution with a tape, too
+    clock : counts the seconds and tells progress
 
     Raises
     ------
@@ -344,18 +347,24 @@ def solve(
     >>> sg.solve(model).contact("bottom").pressure.round(12)
     array([3., 3., 3.])
     """
+    if accuracy is not None and accuracy != "estimate" and (start is not None or tape):
+        what = "start" if start is not None else "tape"
+        raise InputError("belongs to one mesh; expected none where it is refined to an accuracy", where=(what,))
     kept = tape_of(start) if tape else None
-    history = solve_history(
-        model,
-        start=_checkpoint(start),
-        backend=backend,
-        settings=settings,
-        raise_on_failure=False,
-        wellposed=wellposed,
-        clock=clock,
-        after_step=after_step,
-        tape=kept,
-    )
+
+    def on_mesh(posed: Model) -> History:
+        return solve_history(
+            posed,
+            start=_checkpoint(start),
+            backend=backend,
+            settings=settings,
+            raise_on_failure=False,
+            wellposed=wellposed,
+            clock=clock,
+            tape=kept,
+        )
+
+    history = on_mesh(model) if accuracy is None else accurate(model, accuracy, on_mesh)
     return dressed(history, raise_on_failure, kept)
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.accuracy.recovery import StressError
-from signorini.arrays import Array
+from signorini.arrays import Array, padded
 from signorini.fem.boundary import boundary
 from signorini.fem.space import Space
 from signorini.model.model import Model
@@ -48,6 +48,7 @@ def trace_errors(space: Space, model: Model, contacts: Sequence[ContactResult], 
     for result in contacts:
         side = boundary(space, result.nonmortar, ("contact",))
         normals = side.nodal_normals[np.searchsorted(side.nodes, result.node)]
+        normals = padded(normals, result.normals.shape[1])
         body = int(bodies[side.cells[0]])
         nodes, recovered = stress.nodal[body]
         tensors = _tensors(recovered[np.searchsorted(nodes, result.node)], normals.shape[1])

@@ -26,6 +26,9 @@ _POINTS = 1.5
 _DEGREES = {1: 2, 2: 4}
 """Of polynomials that quadratures of the square of a difference integrate, by the order of the cells."""
 
+_IN_SPACE = 6
+"""Components of a stress, where a displacement has three."""
+
 _LAYERS = 3
 """Of cells around a corner that a patch takes more, at most: strips of one cell have no more to offer."""
 
@@ -78,7 +81,7 @@ def stress_error(deformed: DeformedBodies) -> StressError:
             parts[i].append(_Cells(block=group.block, index=group.index[own], stress=stress[own]))
     squares, total, nodal = np.zeros(model.mesh.number_of_cells), 0.0, []
     for body, own_parts in zip(model.bodies, parts, strict=True):
-        kind = "3d" if model.dimension == 3 else "plane strain"
+        kind = "3d" if own_parts[0].stress.shape[2] == _IN_SPACE else "plane strain"
         compliance = np.asarray(np.linalg.inv(elasticity(body.material, kind)), float)
         fitted = _fitted(space, own_parts)
         at_nodes = np.zeros((len(space.mesh.points), len(compliance)))

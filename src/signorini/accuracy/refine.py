@@ -6,7 +6,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import TypeVar
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from signorini.errors import InputError
 from signorini.fem.space import make_space
 from signorini.fem.stress import DeformedBodies
 from signorini.meshing.simplices import Simplices
-from signorini.model.accuracy import Accuracy
+from signorini.model.accuracy import Accuracy, Asked
 from signorini.model.mesh import CORNERS, NODES_PER_CELL
 from signorini.model.model import Model
 from signorini.model.varying import NodeValues
@@ -33,8 +32,6 @@ LEVELS = 40
 
 PAIRS = 10
 """Pairs across a contact that have to touch, at least: with fewer the ends of the contact are known to a tenth."""
-
-AnyHistory = TypeVar("AnyHistory", bound=History)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -68,7 +65,7 @@ def estimate(history: History, before: tuple[Simplices, History] | None = None) 
     before : the simplices that it was solved on, and the history of the mesh before
     """
     model = history.model
-    space = make_space(model.mesh, axisymmetric=model.axisymmetric)
+    space = make_space(model.mesh, kind=model.kind)
     pressure, friction, scale, pairs = [0.0], [0.0], [0.0], 0
     squares, norms = np.zeros(model.mesh.number_of_cells), [0.0]
     for k, step in enumerate(history.steps):
@@ -77,7 +74,7 @@ def estimate(history: History, before: tuple[Simplices, History] | None = None) 
         norms.append(stress.norm_square)
         found = [trace_errors(space, model, step.contacts, stress)]
         if before is not None:
-            found.append(level_errors(step.contacts, _carried(model, before, k)))
+            found.append(level_errors(step.contacts, _carried(before, k)))
         pressure.append(max(one.pressure for one in found))
         friction.append(max(one.pressure + one.friction for one in found))
         scale.append(found[0].scale)
@@ -93,63 +90,60 @@ def estimate(history: History, before: tuple[Simplices, History] | None = None) 
     )
 
 
-def estimated(history: History) -> AccuracyResult:
-    """What is known of the accuracy of a history without another mesh.
-
-    Raises
-    ------
-    InputError
-        For what no estimate knows: bodies that yield, sides that slide far or wear.
-    """
-    refuse(history.model)
-    start = time.perf_counter()
-    found = estimate(history)
-    level = _level(history.model, found, time.perf_counter() - start)
-    return _result(found, (level,), None, "", ())
-
-
-def refined(
-    model: Model, request: Accuracy, solve: Callable[[Model], AnyHistory]
-) -> tuple[AnyHistory, AccuracyResult | None]:
-    """Solve on finer and finer meshes, until errors are below what was asked, or a bound ends it.
+def accurate(model: Model, asked: Asked, solve: Callable[[Model], History]) -> History:
+    """A history with what is known of its accuracy, on finer and finer meshes where one is asked for.
 
     Parameters
     ----------
     model : on the mesh to begin with, which says its shape
-    request : how accurate, and how far
-    solve : a model that fits a mesh, certified
-
-    Returns
-    -------
-    The last history, and what is known of its accuracy; None where it was not solved
+    asked : a relative error of the pressures, more of it, or "estimate": of the mesh as it is
+    solve : a model that fits a mesh; the history is certified, or says why it is not
 
     Raises
     ------
     InputError
-        For models that are not refined, by name.
+        For what is no accuracy, and models whose accuracy is not known, by name.
     """
+    if asked == "estimate":
+        refuse(model)
+        history = solve(model)
+        return replace(history, accuracy=_result(estimate(history), (), None)) if history.solved else history
+    try:
+        request = asked if isinstance(asked, Accuracy) else Accuracy(asked)
+    except InputError as error:
+        words = f"is {asked!r}; expected a relative error > 0, an Accuracy or 'estimate'"
+        raise InputError(words, where=("accuracy",)) from error
     refuse(model, whole=True)
     if request.of != "energy" and not model.contacts:
-        raise InputError('asks for pressures and there is no contact; expected of = "energy"', where=("accuracy",))
-    meshes = _Meshes(model)
-    posed, start, before = meshes.first(), time.perf_counter(), None
-    levels: list[MeshLevel] = []
+        raise InputError("is that of pressures, and there is no contact; expected of = 'energy'", where=("accuracy",))
+    return _refined(model, request, solve)
+
+
+def _refined(model: Model, request: Accuracy, solve: Callable[[Model], History]) -> History:
+    """On finer and finer meshes, until errors are below what was asked, or a bound ends it."""
+    meshes, start = _Meshes(model), time.perf_counter()
+    posed, levels, known = meshes.first(), list[MeshLevel](), None
     while True:
         begun = time.perf_counter()
         history = solve(posed)
         if not history.solved:
-            return history, None
-        found = estimate(history, None if before is None else (meshes.simplices, before))
+            return history if known is None else _interrupted(known, history)
+        found = estimate(history, None if known is None else (meshes.simplices, known))
         levels.append(_level(posed, found, time.perf_counter() - begun))
-        if _met(request, found, model.dimension, len(levels)):
-            reason = ""
-            break
-        posed = meshes.next(_marked(found.squares))
-        reason = _end(request, len(posed.mesh.points), time.perf_counter() - start, len(levels))
-        if reason:
-            break
-        before = history
-    return history, _result(found, tuple(levels), request, reason, meshes.notes)
+        met, reason = _met(request, found, model.dimension, len(levels)), ""
+        if not met:
+            posed = meshes.next(_marked(found.squares))
+            reason = _end(request, len(posed.mesh.points), time.perf_counter() - start, len(levels))
+        known = replace(history, accuracy=_result(found, tuple(levels), request, reason, meshes.notes))
+        if met or reason:
+            return known
+
+
+def _interrupted(known: History, history: History) -> History:
+    """What was solved on the mesh before one on which a history has ended."""
+    message = f"on a finer mesh: {history.message}; results are those of the mesh before"
+    accuracy = None if known.accuracy is None else replace(known.accuracy, reason=message)
+    return replace(known, status=history.status, message=message, accuracy=accuracy)
 
 
 def refuse(model: Model, *, whole: bool = False) -> None:
@@ -224,13 +218,13 @@ class _Meshes:
         return replace(self._model, mesh=self.simplices.mesh(self._order, self._curves))
 
 
-def _carried(model: Model, before: tuple[Simplices, History], step: int) -> list[tuple[Array, Array]]:
+def _carried(before: tuple[Simplices, History], step: int) -> list[tuple[Array, Array]]:
     """Of every contact pressure and friction of the mesh before at the corners of this one."""
     simplices, history = before
     older = int((simplices.parents[:, 0] == simplices.parents[:, 1]).sum())
     found = []
     for contact in history.steps[step].contacts:
-        values = np.zeros((older, 1 + model.dimension))
+        values = np.zeros((older, 1 + contact.normals.shape[1]))
         values[contact.node, 0], values[contact.node, 1:] = contact.pressure, contact.shear
         carried = simplices.carried(values)
         found.append((carried[:, 0], carried[:, 1:]))
@@ -276,7 +270,11 @@ def _level(model: Model, found: Estimate, seconds: float) -> MeshLevel:
 
 
 def _result(
-    found: Estimate, levels: tuple[MeshLevel, ...], request: Accuracy | None, reason: str, notes: tuple[str, ...]
+    found: Estimate,
+    levels: tuple[MeshLevel, ...],
+    request: Accuracy | None,
+    reason: str = "",
+    notes: tuple[str, ...] = (),
 ) -> AccuracyResult:
     total = found.squares.sum()
     return AccuracyResult(

@@ -111,6 +111,11 @@ def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
     run.add_argument(
         "--wellposed", action="store_true", help="ask whether the solution is the only one, and look for others"
     )
+    run.add_argument(
+        "--accuracy",
+        metavar="ERROR",
+        help="relative error of the pressures, 0.01 say: the mesh is refined until it is met; 'estimate': as it is",
+    )
     run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
 
 

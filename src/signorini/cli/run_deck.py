@@ -9,17 +9,22 @@ import textwrap
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from signorini.api import solve
+from signorini.accuracy.refine import accurate
+from signorini.checks import number
 from signorini.cli.progress import progress
 from signorini.clock import Clock
 from signorini.deck import Deck
+from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.multifrontal import compiled
 from signorini.linalg.registry import BACKENDS
 from signorini.linalg.threads import one_thread
+from signorini.model.accuracy import Accuracy, Asked
+from signorini.model.model import Model
 from signorini.outcome import Outcome
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
@@ -36,7 +41,7 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     Parameters
     ----------
     deck : as it was read
-    options : ``folder``, ``start``, ``backend``, ``wellposed`` and ``quiet`` of the command line
+    options : ``folder``, ``start``, ``backend``, ``wellposed``, ``accuracy`` and ``quiet`` of the command line
     clock : with the seconds of reading
     started : ``time.perf_counter()`` at the beginning of the command
     log : file to which lines on what is done are added; None: none
@@ -120,6 +125,19 @@ def _start(name: str | None) -> Checkpoint | None:
     return read_checkpoint(path / "state.npz" if path.is_dir() else path)
 
 
+def _accuracy(deck: Deck, given: str | None) -> Asked | None:
+    """What the command line asks for, or else the deck."""
+    if given is None or given == "estimate":
+        return deck.accuracy if given is None else "estimate"
+    try:
+        error = number(float(given), (), above=0.0)
+    except (ValueError, InputError) as wrong:
+        raise InputError(
+            f"is '{given}'; expected a relative error > 0, or 'estimate'", where=("--accuracy",)
+        ) from wrong
+    return replace(deck.accuracy, error=error) if isinstance(deck.accuracy, Accuracy) else error
+
+
 def _solve(
     deck: Deck,
     options: argparse.Namespace,
@@ -128,17 +146,25 @@ def _solve(
     after_step: Callable[[History], None],
 ) -> History:
     """The history, finished or not; what is wrong with the deck is told with its line."""
-    try:
+    accuracy = _accuracy(deck, options.accuracy)
+    refines = accuracy is not None and accuracy != "estimate"
+    if refines and start is not None:
+        raise InputError("belongs to one mesh; expected none where it is refined to an accuracy", where=("--from",))
+
+    def on_mesh(model: Model) -> History:
         return solve(
-            deck.model,
+            model,
             start=start,
             backend=options.backend,
             settings=deck.settings,
             raise_on_failure=False,
             wellposed=options.wellposed,
             clock=clock,
-            after_step=after_step,
+            after_step=None if refines else after_step,
         )
+
+    try:
+        return on_mesh(deck.model) if accuracy is None else accurate(deck.model, accuracy, on_mesh)
     except InputError as error:
         raise deck.locate(error) from error
     except SolveFailed as failure:  # before there was any history

@@ -10,6 +10,7 @@ from pathlib import Path
 from signorini.deck.error import DeckError
 from signorini.deck.syntax import line_of
 from signorini.errors import InputError, Where
+from signorini.model.accuracy import Asked
 from signorini.model.model import Model
 from signorini.model.modes import ModesRequest
 from signorini.model.prints import Prints
@@ -27,6 +28,7 @@ class Deck:
     lines : line of every key and table, from 1, by its path
     unused_materials : names of materials that no body is made of
     settings : limits of the methods, of the table ``[solver]``
+    accuracy : of the table ``[solve]``: what :func:`signorini.solve` is asked for; None: nothing
     modes : natural modes that it asks for; None: none
     prints : what a deck of keywords asks for; None for other decks
     notes : how the model differs from what the deck asks for, and what was left out
@@ -39,6 +41,7 @@ class Deck:
     notes: tuple[str, ...] = ()
     prints: Prints | None = None
     settings: SolverSettings = field(default_factory=SolverSettings)
+    accuracy: Asked | None = None
     modes: ModesRequest | None = None
 
     def locate(self, error: InputError) -> DeckError:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import fields
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -18,12 +19,13 @@ from signorini.deck.nodal_forces import with_nodal_forces
 from signorini.deck.syntax import parse
 from signorini.deck.tables import FIELDS, deck_bodies, deck_materials, deck_parts
 from signorini.errors import InputError, Where
+from signorini.model.accuracy import Accuracy, Asked
 from signorini.model.model import Model
 from signorini.model.modes import ModesRequest
 from signorini.settings import SolverSettings
 from signorini.sources import Reach
 
-KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "solver", "modes", *FIELDS)
+KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "solve", "solver", "modes", *FIELDS)
 
 
 def read(
@@ -108,5 +110,25 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach
         lines=MappingProxyType(dict(lines)),
         unused_materials=unused,
         settings=settings,
+        accuracy=_accuracy(table(data["solve"], ("solve",))) if "solve" in data else None,
         modes=asked,
     )
+
+
+def _accuracy(data: Mapping[str, Any]) -> Asked:
+    """What ``[solve]`` asks for: ``accuracy``, an error or "estimate", and what `Accuracy` has beside it."""
+    where = ("solve",)
+    known = ["accuracy", *(field.name for field in fields(Accuracy) if field.name != "error")]
+    check_keys(data, where, known=known, needed=["accuracy"])
+    asked, rest = data["accuracy"], {key: value for key, value in data.items() if key != "accuracy"}
+    if asked == "estimate":
+        for key in rest:
+            raise InputError("belongs to an accuracy; expected none beside 'estimate'", where=(*where, key))
+        return "estimate"
+    if isinstance(asked, str):
+        raise InputError(f"is '{asked}'; expected a relative error > 0, or 'estimate'", where=(*where, "accuracy"))
+    try:
+        return Accuracy(asked, **rest)
+    except InputError as error:
+        key = ("accuracy",) if error.where == ("error",) else error.where
+        raise InputError(error.message, where=(*where, *key)) from error

@@ -17,6 +17,7 @@ from signorini.fem.rigid import describe_motions
 from signorini.inspection.data import total_force
 from signorini.inspection.notes import far_notes, held_notes, idle_notes, mesh_notes, unit_notes
 from signorini.law.friction import FrictionLaw
+from signorini.model.accuracy import Accuracy, Asked
 from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.model.step import Step
@@ -237,12 +238,21 @@ def _notes(deck: Deck) -> list[str]:
     if not model.contacts:
         yields = any(body.material.yields for body in model.bodies)
         notes.append("there is no contact" if yields else "there is no contact: this is a linear problem")
+    if deck.accuracy is not None:
+        notes.append(_accuracy(deck.accuracy))
     if deck.modes is not None:
         about = "about the end of the steps" if deck.modes.preload else "of the bodies as they are drawn"
         notes.append(f"{deck.modes.number} natural modes {about} are asked for, which 'signorini modes' computes")
     elif not model.scaled_names and all(contact.interference == 0.0 for contact in model.contacts):
         notes.append("nothing is loaded or moved")
     return notes
+
+
+def _accuracy(asked: Asked) -> str:
+    """What is done about the accuracy."""
+    if not isinstance(asked, Accuracy):
+        return "errors are estimated on the mesh as it is"
+    return f"the mesh is refined until the {asked.of} is exact to {asked.error:.3g}, up to {asked.nodes} nodes"
 
 
 def _stiffness_notes(examined: Examined) -> list[str]:

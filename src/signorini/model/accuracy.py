@@ -49,3 +49,7 @@ class Accuracy:
         object.__setattr__(self, "nodes", whole(self.nodes, ("nodes",), least=1))
         if self.seconds is not None:
             object.__setattr__(self, "seconds", number(self.seconds, ("seconds",), above=0.0))
+
+
+Asked = float | Accuracy | Literal["estimate"]
+"""Of a solution: a relative error of the pressures, more of it, or an estimate on the mesh as it is."""

@@ -53,6 +53,7 @@ def summary(history: History, seconds: Mapping[str, float], deck: str = "") -> d
         "backend": history.backend,
         "peak_memory_bytes": peak_memory(),
         "well_posedness": _well_posedness(history),
+        "accuracy": _accuracy(history),
         "fatigue": [_fatigue(model, result) for result in history.fatigue_results],
         "steps": [_step(model, step) for step in history.steps],
     }
@@ -82,6 +83,24 @@ def _well_posedness(history: History) -> dict[str, Any] | None:
         "verdict": found.verdict,
         "words": found.words,
         "others": [[_contact(*pair) for pair in zip(contacts, other, strict=True)] for other in found.others],
+    }
+
+
+def _accuracy(history: History) -> dict[str, Any] | None:
+    """Estimated errors, None where nobody asked."""
+    found = history.accuracy
+    if found is None:
+        return None
+    asked = found.asked
+    return {
+        "asked": None if asked is None else {"error": asked.error, "of": asked.of},
+        "met": found.met,
+        "reason": found.reason,
+        "pressure": found.pressure,
+        "traction": found.traction,
+        "energy": found.energy,
+        "levels": [asdict(level) for level in found.levels],
+        "notes": list(found.notes),
     }
 
 

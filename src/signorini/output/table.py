@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Sequence
 from itertools import zip_longest
 
 from signorini.arrays import Array, IntArray
+from signorini.solution.accuracy import AccuracyResult
 from signorini.solution.certificate import TOLERANCE
 from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.history import History
@@ -42,12 +43,30 @@ def history_table(history: History, *, failure: bool = True) -> str:
     lines += fatigue_lines(history)
     for note in dict.fromkeys(note for step in history.steps for note in step.notes):
         lines += ["", *textwrap.wrap(f"{_whose(note, history.steps)}: {note}", 112)]
+    if history.accuracy is not None:
+        for line in accuracy_lines(history.accuracy):
+            lines += ["", *textwrap.wrap(line, 112, subsequent_indent="    ")]
     if history.wellposedness is not None:
         lines += ["", *textwrap.wrap(f"uniqueness: {history.wellposedness.words}", 112)]
     if failure and not history.solved:
         told = f"{history.status}: {history.message}".splitlines()
         lines += ["", *(part for line in told for part in textwrap.wrap(line, 112, subsequent_indent="    "))]
     return "\n".join(lines)
+
+
+def accuracy_lines(found: AccuracyResult) -> Iterator[str]:
+    """What is known of the accuracy, and of the meshes on the way to it."""
+    yield (
+        f"estimated errors: pressure {found.pressure:.2%}, with friction {found.traction:.2%}, "
+        f"stresses in the norm of energy {found.energy:.2%}"
+    )
+    asked = found.asked
+    if asked is not None:
+        verdict = "met" if found.met else f"NOT met: {found.reason}"
+        nodes = ", ".join(str(level.nodes) for level in found.levels)
+        yield f"accuracy {asked.error:.3g} of the {asked.of} {verdict}; {len(found.levels)} meshes of {nodes} nodes"
+    for note in found.notes:
+        yield f"mesh: {note}"
 
 
 def _whose(note: str, steps: Sequence[StepResult]) -> str:

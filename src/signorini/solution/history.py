@@ -11,6 +11,7 @@ from signorini.errors import InputError, one_of
 from signorini.model.model import Model
 from signorini.outcome import Outcome
 from signorini.short import Short
+from signorini.solution.accuracy import AccuracyResult
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.results import ContactResult, Instant, StepResult
@@ -36,6 +37,7 @@ class History(Short):
     wellposedness : whether other solutions exist, where that was asked
     begin : the end of the history that it goes on from; None where it begins with bodies at rest
     fatigue_results : of the criteria that the model asks for, where every step was solved
+    accuracy : estimated errors, where these were asked for; None
     escape : (nodes, d) rigid motion along which bodies run away where that was found, largest entry 1; otherwise None
     """
 
@@ -50,6 +52,7 @@ class History(Short):
     wellposedness: WellPosedness | None = None
     begin: Instant | None = None
     fatigue_results: tuple[FatigueResult, ...] = ()
+    accuracy: AccuracyResult | None = None
     escape: Array | None = None
 
     def __post_init__(self) -> None:
