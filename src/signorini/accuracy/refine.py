@@ -34,8 +34,9 @@ they are constant, and a mesh before of twice the size, are farther from them th
 LEVELS = 40
 """Meshes that are tried at most; each has some 1.5 times the nodes of the one before, so that nodes end it first."""
 
-PAIRS = 10
-"""Pairs across a contact that have to touch, at least: with fewer the ends of the contact are known to a tenth."""
+PAIRS = {2: 10, 3: 30}
+"""Pairs that have to touch, at least, in the plane and in space: with fewer the ends of a contact are known to a tenth.
+In space they are those of a circle of ten across, and of a quarter of one twice as large."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -251,7 +252,7 @@ def _met(request: Accuracy, found: Estimate, dimension: int, levels: int) -> boo
     """Whether errors are small enough, of pressures on two meshes and with enough pairs."""
     if found.of(request.of) > request.error:
         return False
-    return request.of == "energy" or (levels > 1 and found.pairs >= PAIRS ** (dimension - 1))
+    return request.of == "energy" or (levels > 1 and found.pairs >= PAIRS[dimension])
 
 
 def _end(request: Accuracy, nodes: int, seconds: float, levels: int) -> str:
