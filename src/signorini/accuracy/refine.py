@@ -28,8 +28,8 @@ SHARE = 0.7
 """Of the squares of the errors of all cells: those that have it are refined (Doerfler)."""
 
 LINEAR = 0.6
-"""Of the differences that are seen on linear cells: what pressures lack. Stresses that are recovered from cells in which
-they are constant, and a mesh before of twice the size, are farther from them than they are from the truth."""
+"""Of the differences that are seen on linear cells: what their pressures lack. Stresses recovered from cells in which
+they are constant, and a mesh of twice the size, are farther from them than they are from the truth."""
 
 LEVELS = 40
 """Meshes that are tried at most; each has some 1.5 times the nodes of the one before, so that nodes end it first."""

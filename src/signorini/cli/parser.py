@@ -59,7 +59,7 @@ def make_parser() -> argparse.ArgumentParser:
     plot.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
     plot.add_argument(
         "--what",
-        choices=("contact", "stress", "peeq", "mesh", "view", "history", "wear", "fatigue", "escape"),
+        choices=("contact", "stress", "peeq", "mesh", "view", "history", "wear", "fatigue", "accuracy", "escape"),
         default="contact",
     )
     plot.add_argument("-o", dest="file", metavar="FILE", help="PNG, PDF or SVG file (default: WHAT.png in DIR)")

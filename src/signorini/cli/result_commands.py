@@ -12,6 +12,7 @@ from signorini.output.atomic_write import atomic_write
 from signorini.output.compare import compare
 from signorini.output.folder import read_folder, read_results
 from signorini.output.table import align
+from signorini.plot.accuracy import draw_accuracy
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
 from signorini.plot.fatigue import draw_fatigue
@@ -68,6 +69,8 @@ def _draw(history: History, what: str) -> Figure:
         return draw_solid_mesh(data) if data.solid else draw_mesh(data)
     if what == "wear":
         return draw_wear(data)
+    if what == "accuracy":
+        return draw_accuracy(data)
     if what == "fatigue":
         return draw_fatigue(data)
     return draw_history(data) if what == "history" else draw_contacts(data)
