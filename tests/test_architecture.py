@@ -57,7 +57,9 @@ CORE = {
     "solution",
 }
 BELOW_CLI = (
-    BASE | CORE | {"engine", "vibration", "derivative", "deck", "output", "plot", "inspection", "report", "reference"}
+    BASE
+    | CORE
+    | {"engine", "vibration", "derivative", "accuracy", "deck", "output", "plot", "inspection", "report", "reference"}
 )
 
 # folder or file: what it may import besides itself and the base
@@ -77,6 +79,7 @@ ALLOWED = {
     "solution": {"law", "model", "fem", "interface", "plasticity"},
     "engine": CORE,
     "vibration": CORE | {"engine"},
+    "accuracy": CORE,
     "derivative": CORE | {"engine"},
     "deck": {"law", "fatigue", "model", "meshing", "fem"},
     "output": {"solution", "law", "fatigue", "model", "meshing", "fem", "plasticity"},

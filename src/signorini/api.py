@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signorini.accuracy.refine import accurate
+from signorini.accuracy.refine import accurate, refuse_one_mesh
 from signorini.arrays import Array
 from signorini.clock import Clock
 from signorini.derivative.differentiable import DifferentiableHistory, tape_of
@@ -347,24 +347,19 @@ def solve(
     >>> sg.solve(model).contact("bottom").pressure.round(12)
     array([3., 3., 3.])
     """
-    if accuracy is not None and accuracy != "estimate" and (start is not None or tape):
-        what = "start" if start is not None else "tape"
-        raise InputError("belongs to one mesh; expected none where it is refined to an accuracy", where=(what,))
+    refuse_one_mesh(accuracy, start=start is not None, tape=tape)
     kept = tape_of(start) if tape else None
-
-    def on_mesh(posed: Model) -> History:
-        return solve_history(
-            posed,
-            start=_checkpoint(start),
-            backend=backend,
-            settings=settings,
-            raise_on_failure=False,
-            wellposed=wellposed,
-            clock=clock,
-            tape=kept,
-        )
-
-    history = on_mesh(model) if accuracy is None else accurate(model, accuracy, on_mesh)
+    follow = partial(
+        solve_history,
+        start=_checkpoint(start),
+        backend=backend,
+        settings=settings,
+        raise_on_failure=False,
+        wellposed=wellposed,
+        clock=clock,
+        tape=kept,
+    )
+    history = follow(model) if accuracy is None else accurate(model, accuracy, follow)
     return dressed(history, raise_on_failure, kept)
 
 

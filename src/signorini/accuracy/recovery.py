@@ -14,7 +14,7 @@ from signorini.fem.elasticity import elasticity
 from signorini.fem.jacobian import determinants, jacobians
 from signorini.fem.kinematics import groups
 from signorini.fem.measure import measure
-from signorini.fem.space import Block, Space, linear_at_nodes, shapes_in_cells
+from signorini.fem.space import Block, Space, shapes_in_cells
 from signorini.fem.stress import DeformedBodies
 from signorini.meshing.facets import facet_corners
 from signorini.model.mesh import CORNERS
@@ -32,7 +32,7 @@ _IN_SPACE = 6
 _LAYERS = 3
 """Of cells around a corner that a patch takes more, at most: strips of one cell have no more to offer."""
 
-_REGULAR = 1e-10
+_REGULAR = 1e-12
 """Of the trace of a patch's normal equations: what is added where points lie on a line or in a plane."""
 
 
@@ -44,7 +44,7 @@ class StressError:
     ----------
     squares : (m,) ``int (s* - s) : C^-1 : (s* - s)`` of every cell, work
     norm_square : the same of the recovered stress over all bodies, work
-    nodal : recovered stresses of every body at its nodes, and which nodes (k,) these are, (k, 4 or 6) force per area
+    nodal : of every body the corners of its cells (k,), and recovered stresses there, (k, 4 or 6) force per area
     """
 
     squares: Array
@@ -84,14 +84,12 @@ def stress_error(deformed: DeformedBodies) -> StressError:
         kind = "3d" if own_parts[0].stress.shape[2] == _IN_SPACE else "plane strain"
         compliance = np.asarray(np.linalg.inv(elasticity(body.material, kind)), float)
         fitted = _fitted(space, own_parts)
-        at_nodes = np.zeros((len(space.mesh.points), len(compliance)))
         for part in own_parts:
             difference, smooth, volumes = part.at_quadrature(fitted, model, space)
             squares[part.numbers] = _work(difference, compliance, volumes)
             total += float(_work(smooth, compliance, volumes).sum())
-            at_nodes[part.nodes] = part.at_nodes(fitted, space)
-        nodes = np.flatnonzero(among([part.nodes for part in own_parts], len(at_nodes)))
-        nodal.append((nodes, at_nodes[nodes]))
+        nodes = np.flatnonzero(among([part.corners for part in own_parts], len(space.mesh.points)))
+        nodal.append((nodes, fitted.coefficients[nodes, 0]))
     return StressError(squares=squares, norm_square=total, nodal=tuple(nodal))
 
 
@@ -134,10 +132,6 @@ class _Cells:
         smooth = fitted.at(at, linear, self.corners)
         corners = self.block.to_nodes[: linear.shape[1]]
         return smooth - np.einsum("qp,mpc->mqc", linear @ corners, self.stress), smooth, volumes
-
-    def at_nodes(self, fitted: _Fitted, space: Space) -> Array:
-        """Recovered stress at the nodes of every cell, (m, k, 4 or 6); cells that share a node agree."""
-        return fitted.at(space.mesh.points[self.nodes], linear_at_nodes(self.block.family), self.corners)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

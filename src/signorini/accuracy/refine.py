@@ -152,6 +152,24 @@ def _interrupted(known: History, history: History) -> History:
     return replace(known, status=history.status, message=message, accuracy=accuracy)
 
 
+def refuse_one_mesh(asked: Asked | None, **given: bool) -> None:
+    """Refuse what belongs to one mesh where it is refined.
+
+    Parameters
+    ----------
+    asked : of the accuracy
+    given : by the name that the user calls it, whether it is there
+
+    Raises
+    ------
+    InputError
+        With that name.
+    """
+    for name, there in given.items():
+        if there and asked is not None and asked != "estimate":
+            raise InputError("belongs to one mesh; expected none where it is refined to an accuracy", where=(name,))
+
+
 def refuse(model: Model, *, whole: bool = False) -> None:
     """Refuse models whose accuracy is not known.
 

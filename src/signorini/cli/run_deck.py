@@ -10,9 +10,10 @@ import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
-from signorini.accuracy.refine import accurate
+from signorini.accuracy.refine import accurate, refuse_one_mesh
 from signorini.checks import number
 from signorini.cli.progress import progress
 from signorini.clock import Clock
@@ -24,7 +25,6 @@ from signorini.linalg.multifrontal import compiled
 from signorini.linalg.registry import BACKENDS
 from signorini.linalg.threads import one_thread
 from signorini.model.accuracy import Accuracy, Asked
-from signorini.model.model import Model
 from signorini.outcome import Outcome
 from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
@@ -147,24 +147,20 @@ def _solve(
 ) -> History:
     """The history, finished or not; what is wrong with the deck is told with its line."""
     accuracy = _accuracy(deck, options.accuracy)
-    refines = accuracy is not None and accuracy != "estimate"
-    if refines and start is not None:
-        raise InputError("belongs to one mesh; expected none where it is refined to an accuracy", where=("--from",))
-
-    def on_mesh(model: Model) -> History:
-        return solve(
-            model,
-            start=start,
-            backend=options.backend,
-            settings=deck.settings,
-            raise_on_failure=False,
-            wellposed=options.wellposed,
-            clock=clock,
-            after_step=None if refines else after_step,
-        )
-
+    refuse_one_mesh(accuracy, **{"--from": start is not None})
+    follow = partial(
+        solve,
+        start=start,
+        backend=options.backend,
+        settings=deck.settings,
+        raise_on_failure=False,
+        wellposed=options.wellposed,
+        clock=clock,
+    )
     try:
-        return on_mesh(deck.model) if accuracy is None else accurate(deck.model, accuracy, on_mesh)
+        if accuracy is None:
+            return follow(deck.model, after_step=after_step)
+        return accurate(deck.model, accuracy, follow)
     except InputError as error:
         raise deck.locate(error) from error
     except SolveFailed as failure:  # before there was any history

@@ -130,5 +130,5 @@ def _accuracy(data: Mapping[str, Any]) -> Asked:
     try:
         return Accuracy(asked, **rest)
     except InputError as error:
-        key = ("accuracy",) if error.where == ("error",) else error.where
-        raise InputError(error.message, where=(*where, *key)) from error
+        names = ("accuracy",) if error.where == ("error",) else error.where
+        raise InputError(error.message, where=(*where, *names)) from error

@@ -70,8 +70,9 @@ def solve(
 
     Parameters
     ----------
-    model, start, backend, settings, raise_on_failure, wellposed, clock, after_step : as of
-        :func:`signorini.api.solve`, which dresses it
+    model, start, backend, settings, raise_on_failure, wellposed, clock : as of :func:`signorini.api.solve`, which
+        dresses it
+    after_step : is given what is finished after every step but the last, to keep it
     tape : takes what is followed, for derivatives
     """
     prepared = prepare(model, start=start, backend=backend, settings=settings, clock=clock)

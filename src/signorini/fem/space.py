@@ -324,13 +324,6 @@ def shapes_in_cells(family: str, degree: int) -> tuple[Array, Array, Array]:
     return *shape_functions(family, at), weights
 
 
-def linear_at_nodes(family: str) -> Array:
-    """Shape functions of the linear family at the nodes of a family, (k, corners)."""
-    element = _ELEMENTS[family].kind()
-    places = element.doflocs[_meshio_order(family, element)].T
-    return shape_functions(family.rstrip("0123456789"), places)[0]
-
-
 def _monomials(at: Array, of: tuple[tuple[int, ...], ...]) -> Array:
     """(points, monomials) at reference coordinates (d, points)."""
     powers = [np.prod([x**i for x, i in zip(at, each, strict=True)], axis=0) for each in of]
