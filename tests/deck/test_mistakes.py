@@ -63,7 +63,7 @@ MISTAKES = {
         "[[step]]",
         "[[stepp]]",
         ":31: stepp: unknown key; did you mean 'step'? Known: title, kind, thickness, units, mesh, material, "
-        "solver, modes, body, support, foundation, load, contact, obstacle, rigid_body, equation, "
+        "solve, solver, modes, body, support, foundation, load, contact, obstacle, rigid_body, equation, "
         "cyclic_symmetry, bolt, fatigue, step",
     ),
     "unknown boundary": (

@@ -41,11 +41,13 @@ def test_whatever_is_refined_it_is_a_mesh_of_the_same_bodies(family, seed, order
     ((_, facets),) = make_space(fine).facets.items()
     _, times = np.unique(facets.key, return_counts=True)
     outer = sum(len(part) for name in fine.boundaries for part in fine.facets(name))
-    assert times.max() == 2 and (times == 1).sum() == outer
+    assert times.max() == 2
+    assert (times == 1).sum() == outer
     for name in mesh.boundaries:
         low, high = (mesh.points[mesh.nodes_of(name)].min(axis=0), mesh.points[mesh.nodes_of(name)].max(axis=0))
         found = fine.points[fine.nodes_of(name)]
-        assert np.allclose(found.min(axis=0), low) and np.allclose(found.max(axis=0), high)
+        assert np.allclose(found.min(axis=0), low)
+        assert np.allclose(found.max(axis=0), high)
 
 
 def test_bodies_keep_their_cells_and_nodes_their_names():
@@ -55,15 +57,17 @@ def test_bodies_keep_their_cells_and_nodes_their_names():
     named = Mesh(**{**vars(mesh), "nodes": {"left": mesh.nodes_of("one.left"), "tip": [0]}})
     fine = Simplices.of(named).refined([0, 1, 2, 3]).mesh(2)
     lower = fine.points[fine.cells["triangle6"][fine.bodies["one"]]][..., 1]
-    assert lower.max() == 1.0 and len(fine.bodies["one"]) > len(fine.bodies["other"]) == 4
-    assert sorted(fine.nodes["left"]) == sorted(fine.nodes_of("one.left")) and fine.nodes["tip"].tolist() == [0]
+    assert lower.max() == 1.0
+    assert len(fine.bodies["one"]) > len(fine.bodies["other"]) == 4
+    assert sorted(fine.nodes["left"]) == sorted(fine.nodes_of("one.left"))
+    assert fine.nodes["tip"].tolist() == [0]
 
 
 def test_a_middle_node_alone_is_refused():
     mesh = rectangle(nx=1, ny=1, cells="triangle", order=2)
     middle = int(mesh.facets("bottom")[0][0, 2])
     wrong = Mesh(**{**vars(mesh), "nodes": {"support": [middle]}})
-    with pytest.raises(InputError, match="holds node .* the middle of an edge, without both its ends"):
+    with pytest.raises(InputError, match=r"holds node .* the middle of an edge, without both its ends"):
         Simplices.of(wrong)
 
 

@@ -26,6 +26,8 @@ from signorini.settings import SolverSettings
 from signorini.sources import Reach
 
 KEYS = ("title", "kind", "thickness", "units", "mesh", "material", "solve", "solver", "modes", *FIELDS)
+ACCURACY_KEYS = tuple(field.name for field in fields(Accuracy) if field.name != "error")
+"""Of ``[solve]``, beside the accuracy itself."""
 
 
 def read(
@@ -118,8 +120,7 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach
 def _accuracy(data: Mapping[str, Any]) -> Asked:
     """What ``[solve]`` asks for: ``accuracy``, an error or "estimate", and what `Accuracy` has beside it."""
     where = ("solve",)
-    known = ["accuracy", *(field.name for field in fields(Accuracy) if field.name != "error")]
-    check_keys(data, where, known=known, needed=["accuracy"])
+    check_keys(data, where, known=("accuracy", *ACCURACY_KEYS), needed=["accuracy"])
     asked, rest = data["accuracy"], {key: value for key, value in data.items() if key != "accuracy"}
     if asked == "estimate":
         for key in rest:

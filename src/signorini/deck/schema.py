@@ -14,11 +14,12 @@ import typing
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any, Literal
 
-from signorini.deck.load import KEYS
+from signorini.deck.load import ACCURACY_KEYS, KEYS
 from signorini.deck.meshes import FILE_KEYS, GENERATORS
 from signorini.deck.tables import CONTACT_KEYS, KINDS, OBSTACLE_KEYS, OBSTACLES
 from signorini.fatigue.criteria import CRITERIA
 from signorini.law.closure import Closure
+from signorini.model.accuracy import Accuracy
 from signorini.model.body import Body
 from signorini.model.bolt import Bolt
 from signorini.model.conditions import Load
@@ -51,6 +52,7 @@ OWN_WORDS = {
     "contact.between": "two boundaries in place of nonmortar and mortar; the coarser one becomes the nonmortar side",
     "obstacle.name": "what contacts, steps and results call it",
     "load.nodal_forces": "a force for each node of a node set, ascending; or file and column, with nodes of its own",
+    "solve.accuracy": "relative error that the mesh is refined to; 'estimate': errors are estimated on it as it is",
     "bolt.plane": "body, point and normal: the section is the facets of the body in a plane of nodes",
     "bolt.halves": "two boundaries that face each other: the section is between them",
 }
@@ -72,6 +74,9 @@ def deck_schema() -> Schema:
     own["body"] = _array(_table([Body], "body", needed=("name", "material"), replaced={"material": _TEXT}))
     own["contact"] = _array(_contact())
     own["obstacle"] = _array(_table([Rigid], "obstacle", OBSTACLE_KEYS, needed=("name",), replaced=_shapes()))
+    asked = _either([_NUMBER, {"const": "estimate"}]) | _own("solve", "accuracy")
+    accuracy = {"accuracy": asked}
+    own["solve"] = _table([Accuracy], "solve", (*accuracy, *ACCURACY_KEYS), needed=("accuracy",), replaced=accuracy)
     own["solver"], own["modes"] = _table([SolverSettings], "solver"), _table([ModesRequest], "modes")
     single = _table([Model], "", ("title", "kind", "thickness", "units"), needed=())["properties"]
     return {
