@@ -144,7 +144,7 @@ def pressure_error(found: Solution, reference: Solution) -> float:
 def point_error(found: Solution) -> float:
     """Of the pressures of the ball against Hertz', with the areas of the nodes."""
     contact = found.contact("seat")
-    largest = 2.0 / np.pi * coarse.SOFT.E / (1.0 - coarse.SOFT.nu**2) / 100.0
+    largest = 2.0 / np.pi * coarse.PLANE_MODULUS / 100.0
     true = largest * np.sqrt(np.maximum(1.0 - (contact.points[:, :2] ** 2).sum(axis=1), 0.0))
     return float(np.sqrt((contact.area @ (contact.pressure - true) ** 2) / (contact.area @ true**2)))
 

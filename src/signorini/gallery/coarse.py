@@ -23,25 +23,39 @@ from signorini.model.rigid import Rigid
 Cells = Literal["triangle", "quad"]
 
 SOFT = Elastic(E=200.0, nu=0.3)
-_STIFF = 200.0 / (1.0 - 0.3**2)  # E / (1 - nu^2)
+PLANE_MODULUS = SOFT.E / (1.0 - SOFT.nu**2)
+"""``E / (1 - nu^2)`` of that."""
+
 _HALVES = Support("left", u=(0.0, None))
 
 
 def hertz_line(friction: float = 0.0, *, cells: Cells = "triangle", order: int = 2) -> Model:
-    """Half of a block on a rigid circle of radius 200 that it touches on a half-width of 1, a twentieth of its own."""
+    """Half of a block on a rigid circle of radius 200 that it touches on a half-width of 1, a twentieth of its own.
+
+    Parameters
+    ----------
+    friction : coefficient
+    cells, order : family of the cells, linear or quadratic
+    """
     lines = np.linspace(0.0, 20.0, 9)
     return Model(
         rectangle(x=lines, y=lines, cells=cells, order=order),
         bodies=[Body("block", SOFT)],
         supports=[_HALVES],
-        loads=[Load("top", force=(None, -np.pi * _STIFF / 1600.0))],
+        loads=[Load("top", force=(None, -np.pi * PLANE_MODULUS / 1600.0))],
         contacts=[Contact("bottom", Circle((0.0, -200.0), 200.0), friction=friction, name="seat")],
         title="Hertz, line contact",
     )
 
 
 def cylinder(friction: float = 0.4, *, cells: Cells = "triangle", order: int = 2) -> Model:
-    """The paper's cylinder on a rigid plane, a quarter of a disk, with four nodes on the arc."""
+    """The paper's cylinder on a rigid plane, a quarter of a disk, with four corners on the arc.
+
+    Parameters
+    ----------
+    friction : coefficient
+    cells, order : family of the cells, linear or quadratic
+    """
     return Model(
         quarter_disk(radius=8.0, contact_length=4.0, contact_spacing=2.0, cells=cells, order=order),
         bodies=[Body("disk", SOFT)],
@@ -107,7 +121,7 @@ def ball(*, size: float = 12.0) -> Model:
     size : of the block, in radii of the contact
     """
     lines = np.array([0.0, 1.0, 2.5, 0.5 * size, size])
-    force = _STIFF / 75.0 / 4.0  # a quarter of 4 E* a^3 / 3 R
+    force = PLANE_MODULUS / 75.0 / 4.0  # a quarter of 4 E* a^3 / 3 R
     return Model(
         box(x=lines, y=lines, z=-lines[::-1]),
         bodies=[Body("block", SOFT)],
