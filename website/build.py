@@ -33,7 +33,15 @@ NAVIGATION: dict[str, list[str]] = {
     "Decks": ["deck.md", "inp.md", "security.md"],
     "Features": [
         *("contact_surfaces.md", "elements_and_loads.md", "three_dimensions.md", "exact_paths.md", "sliding.md"),
-        *("joints.md", "plasticity.md", "wear.md", "fatigue.md", "modes.md", "choosing_an_lcp_method.md"),
+        *(
+            "joints.md",
+            "plasticity.md",
+            "wear.md",
+            "fatigue.md",
+            "modes.md",
+            "derivatives.md",
+            "choosing_an_lcp_method.md",
+        ),
     ],
     "Theory": ["theory.md", "method.md", "robust_friction.md", "budgets.md"],
     "Evidence": ["verification.md", "performance.md", "lcp_benchmark.md"],

@@ -189,6 +189,49 @@ def test_a_derivative_says_how_far_it_holds(solved):
         assert words.startswith("node ")
 
 
+@pytest.fixture(scope="module")
+def ending_at_an_event(solved):
+    """The same pulled until a pair has used up its friction, and not farther."""
+    model, solution, _ = solved
+    slips = next(event for event in solution.steps[1].events if event.what == "slips")
+    press, pull = model.steps[:2]
+    part = slips.load_factor - 1.0
+    pull = replace(pull, scale={"pull": part, "heat": 0.5 + 0.5 * part})
+    return replace(model, steps=[press, pull]), int(slips.nodes[0])
+
+
+@pytest.mark.parametrize("parameter", ["friction.joint", "load.pull"])
+def test_at_an_event_a_derivative_has_two_sides(ending_at_an_event, parameter):
+    model, node = ending_at_an_event
+    change, step = PARAMETERS[parameter]
+    solution = sg.solve(model, tape=True)
+    views = [sg.solve(change(model, q), tape=True)._taped.view for q in (-step, 0.0, step)]
+    for output in (sg.pressure("joint").peak, sg.motion("joint")[node]):
+        derivative = solution.derivative(output)
+        below, here, above = (value(output, view) for view in views)
+        size = max(abs(above - here), abs(here - below)) / step
+        wanted = ((here - below) / step, (above - here) / step)
+        assert derivative.sides(parameter) == pytest.approx(wanted, abs=1e-5 * size)
+        with pytest.raises(sg.InputError, match=rf"node {node + 1} of 'joint' slips at load factor 2: .* two sides"):
+            derivative.by(parameter)
+        holds = derivative.holds(parameter)
+        assert 0.0 in (holds.low, holds.high)
+        assert solution.derivative(output.after(1)).sides(parameter) == pytest.approx(
+            (solution.derivative(output.after(1)).by(parameter),) * 2
+        )
+
+
+def test_grazing_is_refused(solved):
+    _, solution, _ = solved
+    point = next(point for point in solution._taped.view.points if point.at_event)
+    pair = point.conditions.pair[point.event]
+    slow = point.h_rate.copy()
+    slow[0, pair] *= 1e-12
+    grazing = replace(point, h_rate=slow)
+    with pytest.raises(sg.InputError, match="grazes its event"):
+        assert grazing.event
+
+
 def test_a_history_without_a_tape_is_solved_again(solved):
     model, solution, derivatives = solved
     assert solution.tape is not None

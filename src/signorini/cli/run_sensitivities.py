@@ -9,6 +9,7 @@ import json
 from signorini.api import solve
 from signorini.clock import Clock
 from signorini.deck import Deck
+from signorini.derivative.refusals import refuse_model
 from signorini.errors import InputError
 from signorini.linalg.threads import one_thread
 from signorini.output.sensitivities_table import sensitivities_data, sensitivities_table
@@ -29,6 +30,7 @@ def run_sensitivities(deck: Deck, options: argparse.Namespace, clock: Clock) -> 
     The exit code, 0; what could not be solved is raised
     """
     try:
+        refuse_model(deck.model)
         found = solve(deck.model, settings=deck.settings, clock=clock, tape=True).sensitivities()
     except InputError as error:
         raise deck.locate(error) from error

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -19,14 +20,15 @@ from signorini.derivative.functionals import value, weights
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.outputs import Displacement, Output, Stress
 from signorini.derivative.parameters import change_of, names_of, shape_change
-from signorini.derivative.points import tape_points
+from signorini.derivative.points import TapePoint, beyond, tape_points
 from signorini.derivative.recursion import Change, PointChange, forward
 from signorini.derivative.refusals import refuse_tape
-from signorini.derivative.validity import validity
+from signorini.derivative.validity import PathEdge, edges, on_edge, validity
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
+from signorini.model.model import Model
 from signorini.solution.sensitivities import Validity
 
 
@@ -64,6 +66,7 @@ class TapedHistory:
     Parameters
     ----------
     tape : of the history
+    model : that was solved
 
     Raises
     ------
@@ -71,8 +74,8 @@ class TapedHistory:
         Where the history goes through what derivatives do not know, by name.
     """
 
-    def __init__(self, tape: Tape) -> None:
-        refuse_tape(tape)
+    def __init__(self, tape: Tape, model: Model) -> None:
+        refuse_tape(tape, model)
         self.view = HistoryView.of(tape_points(tape))
         self._changes: dict[tuple[str, str], Change] = {}
         self._forward: dict[tuple[str, str], list[PointChange]] = {}
@@ -82,11 +85,23 @@ class TapedHistory:
         """The model, as it is at the end."""
         return self.view.points[-1].system.prepared
 
+    def on(self, points: Sequence[TapePoint]) -> TapedHistory:
+        """The history with other states at some points."""
+        other = copy(self)
+        other.view, other._forward = replace(self.view, points=points), {}
+        return other
+
     def forward(self, kind: str, name: str) -> list[PointChange]:
         """What a parameter changes at every point, kept."""
         if (kind, name) not in self._forward:
             self._forward[kind, name] = forward(self.view.points, self.change(kind, name))
         return self._forward[kind, name]
+
+    def edges(self, kind: str, name: str) -> list[PathEdge]:
+        """Where a parameter has another derivative to each of its sides."""
+        if not any(on_edge(point) for point in self.view.points):
+            return []
+        return edges(self.view, self.forward(kind, name))
 
     def change(self, kind: str, name: str) -> Change:
         """What a parameter changes at once, kept."""
@@ -182,6 +197,28 @@ class Derivative:
         kind, name = split(parameter)
         return float(self._all(kind)[name])
 
+    def sides(self, parameter: str) -> tuple[float, float]:
+        """The derivatives by a parameter, ``kind.name``, downwards and upwards; the same but at an event at the end.
+
+        Raises
+        ------
+        InputError
+            Where pairs share an event on the way, or one is about to close at the end: then one side is not known.
+        """
+        kind, name = split(parameter)
+        view, change = self._history.view, self._history.change(kind, name)
+        last = view.number(self.output.load_factor)
+        found = [edge for edge in self._history.edges(kind, name) if edge.point <= last]
+        own = self._along(change)
+        if not found:
+            return own, own
+        other = beyond(view.points[last], found[0].condition) if len(found) == 1 and found[0].point == last else None
+        if other is None:
+            raise InputError(f"{found[0].words}: what '{parameter}' does on the other side is not known")
+        points = [*view.points[:last], other, *view.points[last + 1 :]]
+        across = Derivative(self._history.on(points), self.output)._along(change)
+        return (across, own) if found[0].change > 0.0 else (own, across)
+
     def holds(self, parameter: str) -> Validity:
         """In which changes of a parameter, ``kind.name``, the sequence of events stays; to first order."""
         return self._history.holds(*split(parameter))
@@ -207,7 +244,18 @@ class Derivative:
         return ByName(names_of(self._history.prepared, kind), lambda name: self._by(kind, name))
 
     def _by(self, kind: str, name: str) -> float:
-        """The derivative by one parameter."""
+        """The derivative by one parameter.
+
+        Raises
+        ------
+        InputError
+            Where it has two sides.
+        """
+        last = self._history.view.number(self.output.load_factor)
+        on_the_way = [edge for edge in self._history.edges(kind, name) if edge.point <= last]
+        if on_the_way:
+            words = f"{on_the_way[0].words}: the derivative by '{kind}.{name}' has two sides there"
+            raise InputError(f"{words}; sides('{kind}.{name}') gives both where that is known")
         return self._along(self._history.change(kind, name))
 
     def _along(self, change: Change) -> float:
@@ -248,6 +296,8 @@ class Derivative:
 
     def _at_once(self, change: BodyChange | ModulusChange) -> float:
         """What a change of the bodies changes of the output while motions, forces and displacements stay."""
+        if isinstance(self.output, Displacement):
+            return 0.0
         low, high = change.views(self._history.view)
         return (value(self.output, high) - value(self.output, low)) / (2.0 * change.step)
 

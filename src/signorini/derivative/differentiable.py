@@ -88,13 +88,13 @@ class DifferentiableHistory(History):
     def _taped(self) -> TapedHistory:
         """The history on its tape, solved again where it was solved without one."""
         if self.tape is not None:
-            return TapedHistory(self.tape)
+            return TapedHistory(self.tape, self.model)
         if self.loaded:
             raise InputError("goes on from another history; solve both with 'tape=True' for derivatives")
         refuse_model(self.model)
         tape = Tape()
         raise_failure(solve(self.model, tape=tape, raise_on_failure=False))
-        return TapedHistory(tape)
+        return TapedHistory(tape, self.model)
 
 
 def tape_of(start: object) -> Tape:

@@ -98,7 +98,7 @@ class AnswerFunction:
         if self._last is None or not np.array_equal(self._last[0], x):
             tape = Tape()
             solve_prepared(self._changed(x), tape=tape)
-            self._last = x.copy(), TapedHistory(tape)
+            self._last = x.copy(), TapedHistory(tape, self._prepared.model)
         return self._last[1]
 
     def _changed(self, x: Array) -> Prepared:

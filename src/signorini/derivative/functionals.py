@@ -53,8 +53,7 @@ def weights(output: Output, view: HistoryView) -> dict[int, Weights]:
 def displacement_weights(output: Displacement | Stress, view: HistoryView) -> Array:
     """(dofs,) How an output of bodies changes with displacements."""
     i = view.number(output.load_factor)
-    u = view.displacement(i)
-    found, d = np.zeros(len(u)), view.model.dimension
+    found, d = np.zeros(view.space.number_of_dofs), view.model.dimension
     if isinstance(output, Displacement):
         found[d * output.node : d * output.node + d] = _along(output.along, d)
         return found

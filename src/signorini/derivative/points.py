@@ -8,7 +8,7 @@ the end of a straight part of the loads or of an increment, whose load is given.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,9 +17,10 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.derivative.interface_system import InterfaceSystem, PairStates
 from signorini.engine.tape import Leg, Tape
 from signorini.errors import InputError
-from signorini.law.states import OPEN, STICK, UNDECIDED
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
 from signorini.solution.state import LoadPoint
 
+_GRAZES = 1e-9  # of the fastest condition of a piece: one that hardly moves
 _STANDSTILL = 1e-13  # of a segment: a piece that is no longer
 
 
@@ -108,6 +109,10 @@ class TapePoint:
                 found.append(own[np.argmin(np.abs(known.value[own] / known.rate[own]))])
         if not found:
             raise InputError(f"the event at load factor {self.load_factor:.9g} has no pair that goes through it")
+        fastest = float(np.abs(known.rate).max())
+        if min(-known.rate[found]) <= _GRAZES * fastest:
+            words = f"a pair grazes its event at load factor {self.load_factor:.9g}, which it comes to without speed"
+            raise InputError(f"{words}: derivatives are infinite there")
         return [int(i) for i in sorted(found, key=lambda i: float(abs(known.value[i] / known.rate[i])))]
 
 
@@ -119,6 +124,21 @@ def tape_points(tape: Tape) -> list[TapePoint]:
         system = systems.setdefault(id(leg.prepared), InterfaceSystem(leg.prepared))
         points += _on_path(number, leg, system) if leg.segment is not None else _in_increments(number, leg, system)
     return points
+
+
+def beyond(point: TapePoint, condition: int) -> TapePoint | None:
+    """A point with the pair of a condition in the state that follows it; None where that is not one alone.
+
+    A pair that closes may stick or slip, either way, as the parameter has it.
+    """
+    known, codes = point.conditions, point.states.codes
+    if codes is None or known.gap[condition] or known.kink[condition]:
+        return None
+    pair, after = known.pair[condition], codes.copy()
+    friction = known.friction[condition]
+    slips = (SLIP_PLUS if friction < 0.0 else SLIP_MINUS) + 2 * known.branch[condition]
+    after[pair] = slips if friction else OPEN
+    return replace(point, states=point.system.states_of_codes(after))
 
 
 def _on_path(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:

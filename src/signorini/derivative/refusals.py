@@ -29,7 +29,7 @@ def refuse_model(model: Model) -> None:
             raise InputError(f"{_UNKNOWN} {words}")
 
 
-def refuse_tape(tape: Tape) -> None:
+def refuse_tape(tape: Tape, model: Model) -> None:
     """Refuse a history that was followed otherwise than exactly or in equal increments, or from an unknown beginning.
 
     Raises
@@ -37,16 +37,13 @@ def refuse_tape(tape: Tape) -> None:
     InputError
         By name.
     """
+    refuse_model(model)
     if not tape.whole:
         raise InputError("goes on from a history without a tape; solve that with 'tape=True', too", where=("start",))
     if tape.lost:
-        raise InputError(
-            f"{tape.lost}: {_UNKNOWN} what happens there: a jump, bodies that move until they touch, supports or "
-            "contacts that change, or increments that end at events, where a number of increments is known"
-        )
+        raise InputError(f"{tape.lost}: {_UNKNOWN} {_what_was_lost(model)}")
     if not tape.legs:
         raise InputError("no part of the history was followed; there is nothing to differentiate")
-    refuse_model(tape.legs[0].prepared.model)
     for leg in tape.legs:
         prepared = leg.prepared
         if prepared.space.components != prepared.model.dimension:
@@ -57,3 +54,12 @@ def refuse_tape(tape: Tape) -> None:
             raise InputError(f"{leg.where}: {_UNKNOWN} bodies that rest where they were left")
         if leg.segment is not None and prepared.interface.directions == 3:
             raise InputError(f"{leg.where}: {_UNKNOWN} exact paths in space; give the step a number of increments")
+
+
+def _what_was_lost(model: Model) -> str:
+    """What in a step is none of what derivatives go through."""
+    if any(step.release or step.hold or step.restore or step.inactive or step.active for step in model.steps):
+        return "supports and contacts that change from step to step"
+    if model.dimension == 3 and not all(isinstance(step.increments, int) for step in model.steps):
+        return "increments that end at events; give the steps a number of increments"
+    return "jumps, bodies that a load carries until they touch, and friction that is lowered under load"

@@ -22,7 +22,7 @@ def sensitivities(history: TapedHistory) -> Sensitivities:
     """The main answers at the end of a history by all parameters that are not zero."""
     view, prepared = history.view, history.prepared
     derivatives = [Derivative(history, output) for output in main_outputs(view)]
-    names, given, rows, holds = [], [], [], []
+    names, given, rows, holds, refused = [], [], [], [], []
     for kind in _KINDS:
         for name in names_of(prepared, kind):
             size = given_value(prepared, kind, name)
@@ -30,8 +30,9 @@ def sensitivities(history: TapedHistory) -> Sensitivities:
                 continue
             try:
                 row = [size * derivative.by(f"{kind}.{name}") / derivative.value for derivative in derivatives]
-            except InputError:
-                continue  # its friction is changed by steps, or not one number
+            except InputError as error:
+                refused.append(f"{kind}.{name}: {error}")
+                continue
             names.append(f"{kind}.{name}")
             given.append(size)
             rows.append(row)
@@ -43,6 +44,7 @@ def sensitivities(history: TapedHistory) -> Sensitivities:
         given=np.array(given),
         per_cent=np.array(rows).reshape(len(names), len(derivatives)),
         holds=tuple(holds),
+        refused=tuple(refused),
     )
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from signorini.law.bound import SIGN
 from signorini.law.states import STICK, UNDECIDED
 from signorini.solution.sensitivities import Validity
 
+_SHARED_EVENT = 1e-7  # of the largest move of an event: by how much events that share a load may move apart
 _ZERO = 1e-10  # of the data of the law: a condition that no parameter can be near to
 
 
@@ -35,6 +37,10 @@ def validity(view: HistoryView, changes: Sequence[PointChange]) -> Validity:
     if view.interface.directions == 3:
         raise InputError("intervals of parameters are known in the plane alone, where pairs have few states")
     low, high, ends = -np.inf, np.inf, ["", ""]
+    for edge in edges(view, changes):
+        which = 0 if edge.change > 0.0 else 1
+        ends[which] = edge.words
+        low, high = (0.0, high) if which == 0 else (low, 0.0)
     for value, rate, words in _conditions(view, changes):
         end = np.divide(-value, rate, out=np.full(len(value), np.nan), where=rate != 0.0)
         above, below = np.where(end > 0.0, end, np.inf), np.where(end < 0.0, end, -np.inf)
@@ -43,6 +49,59 @@ def validity(view: HistoryView, changes: Sequence[PointChange]) -> Validity:
         if len(end) and below.max() > low:
             low, ends[0] = float(below.max()), words(int(below.argmax()))
     return Validity(low=low, high=high, ends=(ends[0], ends[1]))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PathEdge:
+    """A condition that vanishes at a load that is given, or at one where another does.
+
+    Attributes
+    ----------
+    point : its number
+    condition : number of the condition in its piece
+    change : what a parameter changes of it there, per unit: on one side of the parameter the pair goes on as it is
+    words : what happens, and where
+    """
+
+    point: int
+    condition: int
+    change: float
+    words: str
+
+
+def on_edge(point: TapePoint) -> list[int]:
+    """Numbers of the conditions that vanish at a given load; at an event those beyond that of the event."""
+    if point.states.codes is None:
+        return []
+    if point.at_event:
+        return point.candidates[1:]
+    return np.flatnonzero(np.abs(point.conditions.value) <= _ZERO * (point.system.law.scale or 1.0)).tolist()
+
+
+def edges(view: HistoryView, changes: Sequence[PointChange]) -> list[PathEdge]:
+    """Where a parameter has another derivative to each of its sides: pairs that share an event, or end on one."""
+    moves = max((abs(change.part) for change in changes), default=0.0)
+    found = []
+    for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
+        for k in on_edge(point):
+            rate, grows = float(point.conditions.rate[k]), float(change.conditions[k])
+            scale = point.system.law.scale or 1.0
+            apart = (
+                abs(grows / rate) > _SHARED_EVENT * moves
+                if point.at_event
+                else abs(grows) > _SHARED_EVENT * _size(change)
+            )
+            if apart and abs(grows) > _ZERO * scale * moves:
+                named = np.array([k])
+                words = _words(view, point, point.conditions.pair[named], _what(point, named))(0)
+                words = words.replace("before load", "with another at load" if point.at_event else "at load")
+                found.append(PathEdge(point=i, condition=k, change=grows, words=words))
+    return found
+
+
+def _size(change: PointChange) -> float:
+    """The largest change of a condition at a point."""
+    return float(np.abs(change.conditions).max(initial=0.0))
 
 
 def _conditions(

@@ -23,7 +23,8 @@ def sensitivities_table(found: Sensitivities) -> str:
         rows.append([name, f"{given:.6g}", *(f"{part:.4f}" for part in row), *ends])
     lines += align(rows, right=range(1, len(rows[0])))
     told = [line for name, holds in zip(found.parameters, found.holds, strict=True) for line in _ends(name, holds)]
-    return "\n".join([*lines, *(["", "what ends that", *told] if told else [])])
+    refused = ["", "refused", *(f"  {words}" for words in found.refused)] if found.refused else []
+    return "\n".join([*lines, *(["", "what ends that", *told] if told else []), *refused])
 
 
 def sensitivities_data(found: Sensitivities) -> dict[str, Any]:
@@ -33,7 +34,7 @@ def sensitivities_data(found: Sensitivities) -> dict[str, Any]:
         told = None if holds is None else {"low": _finite(holds.low), "high": _finite(holds.high), "ends": holds.ends}
         rows.append({"parameter": name, "value": float(given), "per_cent": row.tolist(), "holds_per_cent": told})
     outputs = [{"output": words, "value": float(at)} for words, at in zip(found.outputs, found.values, strict=True)]
-    return {"outputs": outputs, "parameters": rows}
+    return {"outputs": outputs, "parameters": rows, "refused": list(found.refused)}
 
 
 def _per_cent(change: float) -> str:

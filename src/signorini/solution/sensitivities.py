@@ -37,6 +37,7 @@ class Sensitivities(Short):
     per_cent : (n, m)
     holds : (n,) in which changes of the parameters, in per cent, the sequence of events stays; None in space, where
         that is not known
+    refused : parameters without a derivative, and why
     """
 
     outputs: tuple[str, ...]
@@ -45,3 +46,4 @@ class Sensitivities(Short):
     given: Array
     per_cent: Array
     holds: tuple[Validity | None, ...]
+    refused: tuple[str, ...] = ()
