@@ -15,6 +15,11 @@ from signorini.law.cohesion import PairCohesion, bonded
         ({"strength": 0.0}, "strength: is 0.0; expected a number > 0"),
         ({"strength": "much"}, "strength: is 'much'; expected a number > 0"),
         ({"strength": 1.0, "opening": -1.0}, "opening: is -1.0; expected a number >= 0"),
+        ({"strength": 1.0, "shear_strength": 0.0}, "shear_strength: is 0.0; expected a number > 0"),
+        (
+            {"strength": 1.0, "shear_strength": 1.0, "shear": "free"},
+            'shear_strength: is given, but the sides are "free" to slide',
+        ),
         ({"strength": 1.0, "shear": "loose"}, "shear: unknown shear 'loose'. Known: free, held"),
     ],
 )
@@ -54,7 +59,9 @@ def test_a_contact_takes_a_bond_alone():
 
 def test_tension_falls_with_the_opening_and_goes_back_to_the_closed_state():
     """The line of softening, back to the origin, up the same way, and on; the energy taken is that between both."""
-    pairs = PairCohesion(most=np.array([4.0]), opening=np.array([0.2]), sticks=np.ones(1, bool))
+    pairs = PairCohesion(
+        most=np.array([4.0]), opening=np.array([0.2]), sticks=np.ones(1, bool), along=np.full(1, np.inf)
+    )
     bonds = pairs.unharmed
     assert pairs.holds(bonds).all()
     for opening, tension, taken in (

@@ -15,7 +15,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
-from signorini.engine.bond_rates import BondCourse, Posed, bonds_of, course, left_shear, pose, stiffness
+from signorini.engine.bond_rates import BondCourse, Posed, bonds_of, course, full_along, left_shear, pose, stiffness
 from signorini.engine.energy import set_free
 from signorini.engine.increments import certified, leaving
 from signorini.engine.path_states import path_state, recovered, right_hand_side
@@ -170,7 +170,32 @@ class _Watch:
     def left(self, piece: Breakpoint) -> bool:
         """Whether any bond is beyond its line at the end of a piece."""
         beyond = self._beyond(piece)
-        return bool((beyond > _WIDTH).any()) or bool(self._closes(piece).any())
+        cohesion = bonds_of(self.posed.prepared, self.posed.state)[0]
+        slides = self._sticks & (np.linalg.norm(self._along(piece), axis=0) > (1.0 + _WIDTH) * cohesion.along)
+        return bool((beyond > _WIDTH).any() or slides.any()) or bool(self._closes(piece).any())
+
+    @property
+    def _sticks(self) -> BoolArray:
+        """(n,) Bonds that hold the sides from sliding."""
+        cohesion, bonds = bonds_of(self.posed.prepared, self.posed.state)
+        return self.posed.held & cohesion.sticking(bonds)
+
+    def _along(self, piece: Breakpoint) -> Array:
+        """(d - 1, n) Forces along the sides at a piece's end."""
+        condensed = self.posed.prepared.paths.condensed
+        force = self.posed.moved_on(piece.factor * self.pull)[1:].copy()
+        force[:, condensed.active] += condensed.root * piece.r[1:]
+        return force
+
+    def _until_along(self, one: Breakpoint, two: Breakpoint) -> Array:
+        """(n,) Part of a piece at which bonds bear as much along the sides as they can: ``|f + t g| = limit``."""
+        limit = bonds_of(self.posed.prepared, self.posed.state)[0].along
+        f, g = self._along(one), self._along(two) - self._along(one)
+        beyond = self._sticks & (np.linalg.norm(self._along(two), axis=0) > (1.0 + _WIDTH) * limit)
+        square, middle = (g * g).sum(axis=0), (f * g).sum(axis=0)
+        rest = np.where(beyond, (f * f).sum(axis=0) - np.where(beyond, limit, 0.0) ** 2, 0.0)
+        root = np.sqrt(np.maximum(middle**2 - square * rest, 0.0))
+        return np.where(beyond, np.divide(root - middle, square, out=np.zeros_like(root), where=square > 0.0), np.inf)
 
     def _closes(self, piece: Breakpoint) -> BoolArray:
         """(n,) Bonds that soften no longer."""
@@ -185,6 +210,8 @@ class _Watch:
         change = after - before
         times = np.divide(-before, change, out=np.full_like(change, np.inf), where=(after > _WIDTH) & (change > 0.0))
         times[4] = np.where(after[4] > _WIDTH, 0.0, np.inf)
+        along = self._until_along(one, two)
+        times = np.concatenate([times[:4], np.minimum(times[4:], along)])
         time = 0.0 if self._closes(two).any() else float(np.clip(times, 0.0, 1.0).min(initial=1.0))
         return one.factor + time * (two.factor - one.factor), times <= time + _AT_ONCE
 
@@ -224,6 +251,10 @@ def broken(part: StepPart, behind: Sequence[FollowedPart], *, stops: bool) -> Fo
     none = np.zeros(len(prepared.interface), np.bool_)
     if not state.forces.any():
         return None
+    cohesion = bonds_of(prepared, state)[0]
+    sliding = full_along(prepared, state) & (cohesion.opening > 0.0)
+    if sliding.any():
+        raise SolveFailed(_sheared_off(part, sliding), status=Outcome.NOT_FOUND)
     if len(behind) >= _JUMPS and all(found.snapshots[0].what == "landing" for found in behind[-_JUMPS:]):
         words = told(
             f"{part.where} at {part.interval.low:.6%}: bonds let go, hold again, and let go",
@@ -333,6 +364,16 @@ def _events(part: StepPart, gone: BoolArray) -> tuple[PairEvent, ...]:
         label = part.prepared.model.contacts[contact].label
         found.append(PairEvent(load_factor=part.interval.factor(0.0), contact=label, nodes=nodes, what="breaks"))
     return tuple(found)
+
+
+def _sheared_off(part: StepPart, sliding: BoolArray) -> str:
+    """Bonds that soften, and whose strength along the sides is reached, in words."""
+    number = part.prepared.model.mesh.labels[part.prepared.interface.node[np.flatnonzero(sliding)[0]]]
+    return told(
+        f"{part.where} at {part.interval.low:.6%}: the bond of node {number} bears no more along the sides",
+        remedy="bonds that let go at once, or without a shear_strength",
+        evidence="bonds that soften are followed for tension alone",
+    )
 
 
 def _silent(_done: float) -> None:

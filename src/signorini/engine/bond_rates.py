@@ -166,10 +166,12 @@ def course(
         if not stable:
             return BondCourse(posed=posed, pull=change, breaking=_letting_go(posed, start, codes))
         full, most = _STILL * float(np.abs(motion).max(initial=0.0)), _STILL * float(np.abs(force).max(initial=0.0))
-        torn = posed.held & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most) & (force < -most)
+        torn = posed.held & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most) & (force[0] < -most)
         edge = bonds.damage * cohesion.opening
         torn |= posed.back & (state.gap >= (1.0 - _AT_LIMIT) * edge) & (motion > full)
         brittle = torn & (cohesion.opening == 0.0)
+        grows = (state.forces[1:] * force[1:]).sum(axis=0) > 0.0
+        brittle |= full_along(prepared, state) & posed.held & (cohesion.opening == 0.0) & grows
         if brittle.any():
             return BondCourse(posed=posed, pull=change, breaking=brittle)
         closes = soft & (motion < -full)
@@ -192,6 +194,13 @@ def left_shear(prepared: Prepared, state: State) -> BoolArray:
     return np.asarray((full | opens) & (along > _AT_LIMIT * cohesion.most))
 
 
+def full_along(prepared: Prepared, state: State) -> BoolArray:
+    """(n,) Bonds that bear as much along the sides as they can."""
+    cohesion, bonds = bonds_of(prepared, state)
+    bears = np.linalg.norm(state.forces[1:], axis=0) >= (1.0 - _AT_LIMIT) * cohesion.along
+    return np.asarray(cohesion.sticking(bonds) & bears)
+
+
 def stiffness(posed: Posed) -> Array:
     """(n,) Growth of the tension of springs with their opening, force per length."""
     cohesion, bonds = bonds_of(posed.prepared, posed.state)
@@ -201,7 +210,7 @@ def stiffness(posed: Posed) -> Array:
 
 
 def _rates(posed: Posed, start: PathState, b: Array, codes: IntArray | None) -> tuple[Array, Array, bool] | None:
-    """(n,) Normal motions and forces of the pairs that a change of the load b causes, and whether that is stable.
+    """(n,) Normal motions and (d, n) forces of pairs that a change of the load b causes, and whether that is stable.
 
     None where the bodies are not held by what is closed.
     """
@@ -214,8 +223,8 @@ def _rates(posed: Posed, start: PathState, b: Array, codes: IntArray | None) -> 
     r = system.forces @ solved[: len(rows)]
     h = free + image.A @ r + image.R @ solved[len(rows) :]
     root, active, n = posed.prepared.paths.condensed.root, posed.prepared.paths.condensed.active, len(start.state)
-    motion, force = np.zeros(len(active)), np.zeros(len(active))
-    motion[active], force[active] = h[:n] / root, root * r[:n]
+    motion, force = np.zeros(len(active)), np.zeros_like(posed.state.forces)
+    motion[active], force[:, active] = h[:n] / root, root * system.law.by_pair(r)
     return motion, force, system.stable
 
 

@@ -37,6 +37,8 @@ class Cohesion:
         compliance, and from no tension on where it has; 0 (default): it lets go at once
     shear : "held": while it holds the sides do not slide (default), or "free": they do without friction, as on a plane
         of symmetry, where the sides are one
+    shear_strength : the most force along the sides, force per area, > 0: a bond that lets go at once does so
+        there too; of one that softens a history ends there by name. None (default): no limit
 
     Examples
     --------
@@ -47,24 +49,29 @@ class Cohesion:
     strength: float
     opening: float = 0.0
     shear: Literal["held", "free"] = "held"
+    shear_strength: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "strength", number(self.strength, ("strength",), above=0.0))
         object.__setattr__(self, "opening", number(self.opening, ("opening",), least=0.0))
         choice(self.shear, ("held", "free"), ("shear",), "shear")
+        if self.shear_strength is not None:
+            if self.shear == "free":
+                raise InputError('is given, but the sides are "free" to slide', where=("shear_strength",))
+            object.__setattr__(self, "shear_strength", number(self.shear_strength, ("shear_strength",), above=0.0))
 
     @classmethod
-    def by_energy(cls, strength: float, *, energy: float, shear: Literal["held", "free"] = "held") -> Self:
+    def by_energy(cls, strength: float, *, energy: float, **others: Any) -> Self:
         """A bond by the energy per area, > 0, that it takes to open it for good: half of strength times opening.
 
         Parameters
         ----------
         strength : the most tension, force per area
         energy : per area
-        shear : as of the bond itself
+        others : as of the bond itself
         """
         most = number(strength, ("strength",), above=0.0)
-        return cls(most, 2.0 * number(energy, ("energy",), above=0.0) / most, shear)
+        return cls(most, 2.0 * number(energy, ("energy",), above=0.0) / most, **others)
 
     @property
     def energy(self) -> float:
@@ -75,13 +82,16 @@ class Cohesion:
     def table(self) -> dict[str, Any]:
         """What a deck says of it."""
         opening = {"opening": self.opening} if self.opening else {}
-        return {"strength": self.strength} | opening | ({"shear": self.shear} if self.shear == "free" else {})
+        along = {} if self.shear_strength is None else {"shear_strength": self.shear_strength}
+        return {"strength": self.strength} | opening | ({"shear": self.shear} if self.shear == "free" else along)
 
     @property
     def words(self) -> str:
         """What `check` says of it."""
         how = f"gone at an opening of {self.opening:g}" if self.opening else "lets go at once"
         slides = ", free to slide" if self.shear == "free" else ""
+        if self.shear_strength is not None:
+            slides = f" and a shear of {self.shear_strength:g}"
         return f"bonded up to a tension of {self.strength:g}{slides}, {how}"
 
 
@@ -110,10 +120,12 @@ class PairCohesion:
     most : (n,) tension that they bear, force; 0 where there is no bond
     opening : (n,) at which they are gone, length
     sticks : (n,) those that hold sides from sliding too
+    along : (n,) force along the sides that they bear
 
     Examples
     --------
-    >>> pairs = PairCohesion(most=np.array([2.0, 0.0]), opening=np.array([0.1, 0.0]), sticks=np.ones(2, bool))
+    >>> two, endless = np.array([2.0, 0.0]), np.full(2, np.inf)
+    >>> pairs = PairCohesion(most=two, opening=np.array([0.1, 0.0]), sticks=np.ones(2, bool), along=endless)
     >>> bonds = pairs.unharmed
     >>> bonds = pairs.after(bonds, np.array([0.05, 0.3]))
     >>> bonds.damage.tolist(), bonds.taken.tolist(), pairs.tension(bonds, np.array([0.025, 0.3])).tolist()
@@ -123,6 +135,7 @@ class PairCohesion:
     most: Array
     opening: Array
     sticks: BoolArray
+    along: Array
 
     @property
     def unharmed(self) -> Bonds:
@@ -168,12 +181,13 @@ class PairCohesion:
 
     def among(self, kept: BoolArray) -> PairCohesion:
         """The bonds of the kept pairs, (n,)."""
-        return replace(self, most=self.most[kept], opening=self.opening[kept], sticks=self.sticks[kept])
+        names = ("most", "opening", "sticks", "along")
+        return replace(self, **{name: getattr(self, name)[kept] for name in names})
 
     @property
     def parameters(self) -> dict[str, Array]:
         """(n,) What there is of every pair by name."""
-        shear = np.where(self.sticks, 1.0, 0.0)
+        shear = np.where(self.sticks, self.along, 0.0)
         return {"tension that a bond bears": self.most, "opening of a bond": self.opening, "shear of a bond": shear}
 
 
@@ -203,7 +217,12 @@ def bonded(
             raise InputError(words, where=("contact", int(i), "cohesion"))
     most = np.where(there, strength * area, 0.0)
     sticks = np.array([cohesion is not None and cohesion.shear == "held" for cohesion in cohesions])[contact]
+    limits = [None if cohesion is None else cohesion.shear_strength for cohesion in cohesions]
+    along = np.array([np.inf if limit is None else limit for limit in limits])[contact] * area
     pairs = PairCohesion(
-        most=frozen(most), opening=frozen(np.where(there, opening, 0.0)), sticks=frozen(there & sticks, np.bool_)
+        most=frozen(most),
+        opening=frozen(np.where(there, opening, 0.0)),
+        sticks=frozen(there & sticks, np.bool_),
+        along=frozen(along),
     )
     return np.where(there & (gap > -_TOUCHING * size), 0.0, gap), pairs
