@@ -14,6 +14,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.deck.deck import Deck
 from signorini.deck.error import DeckError
+from signorini.deck.inp.bonds import bonds_apart
 from signorini.deck.inp.card import Card
 from signorini.deck.inp.conditions import Conditions, make_conditions
 from signorini.deck.inp.cyclic import make_cyclic
@@ -161,7 +162,7 @@ def _left_out(outside: Sequence[Card], steps: Sequence[DeckStep], refusals: Refu
     for card in of_keyword(outside, "ELEMENT"):
         with refusals.gather():
             element_type(card)
-    ignored = refuse_unsupported(outside, MODEL_WORDS, "outside a step", refusals)
+    ignored = refuse_unsupported(bonds_apart(outside)[0], MODEL_WORDS, "outside a step", refusals)
     for step in steps:
         ignored = refuse_unsupported(step.cards, STEP_WORDS, "inside a step", refusals) | ignored
     return ignored

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from signorini.deck.inp.bonds import BOND_NOTE, BOND_WORDS, Bond, bonds_apart, with_bond
 from signorini.deck.inp.card import Card, Row, to_number
 from signorini.deck.inp.keywords import collect
 from signorini.deck.inp.refusals import Refusals
@@ -15,7 +16,7 @@ from signorini.errors import InputError
 from signorini.law.closure import Closure
 from signorini.law.friction import TabularFriction
 
-_INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION")
+_INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION", *BOND_WORDS)
 """Keywords that belong to the ``*SURFACE INTERACTION`` before them and that are read here."""
 
 EXPONENTIAL_NOTE = (
@@ -44,6 +45,7 @@ class Interaction:
     shear_limit : largest traction of friction, or None
     tied : the surfaces never part
     closure : pressure over overlap as a table, or None
+    bond : what is told of a bond, or None
     note : where Abaqus and CalculiX differ, and which of them is followed
     """
 
@@ -54,6 +56,7 @@ class Interaction:
     shear_limit: float | None = None
     tied: bool = False
     closure: Closure | None = None
+    bond: Bond | None = None
     note: str = ""
 
     @property
@@ -64,6 +67,7 @@ class Interaction:
 
 def make_interactions(cards: Sequence[Card], refusals: Refusals) -> dict[str, Interaction]:
     """Read all ``*SURFACE INTERACTION`` keywords, of Signorini's and Coulomb's law, by name in capitals."""
+    _, cards = bonds_apart(cards)
     return collect(cards, "SURFACE INTERACTION", _INTERACTION_WORDS, _begun, _with, refusals)
 
 
@@ -73,6 +77,8 @@ def _begun(card: Card) -> Interaction:
 
 
 def _with(law: Interaction, card: Card) -> Interaction:
+    if card.keyword in BOND_WORDS:
+        return replace(law, bond=with_bond(law.bond, card), note=law.note or BOND_NOTE)
     if card.keyword == "FRICTION":
         friction, compliance = read_friction(card)
         note = "; ".join(filter(None, [law.note, FRICTION_NOTE if isinstance(friction, TabularFriction) else ""]))
