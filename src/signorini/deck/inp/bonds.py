@@ -16,7 +16,8 @@ _BESIDE = ("SURFACE BEHAVIOR", "FRICTION", *BOND_WORDS)
 
 BOND_NOTE = (
     "*COHESIVE BEHAVIOR: surfaces that touch at the beginning are bonded and open by tension alone; beyond the "
-    "strength along them a bond that softens ends the history by name; its stiffness counts under pressure and behind it, too"
+    "strength along them a bond that softens ends the history by name; its stiffness counts under pressure and behind "
+    "it, too"
 )
 
 
