@@ -12,7 +12,8 @@ from signorini.law.cohesion import Cohesion
 BOND_WORDS = ("COHESIVE BEHAVIOR", "DAMAGE INITIATION", "DAMAGE EVOLUTION")
 """Keywords that belong to the ``*SURFACE INTERACTION`` before them; those of damage may be of a material instead."""
 
-_BESIDE = ("SURFACE BEHAVIOR", "FRICTION", *BOND_WORDS)
+_INTERACTION_WORDS = ("SURFACE BEHAVIOR", "FRICTION", *BOND_WORDS)
+"""Keywords that may stand between that one and those of its bond."""
 
 BOND_NOTE = (
     "*COHESIVE BEHAVIOR: surfaces that touch at the beginning are bonded and open by tension alone; beyond the "
@@ -68,7 +69,7 @@ def bonds_apart(cards: Sequence[Card]) -> tuple[list[Card], list[Card]]:
     """
     others, of_interactions, inside = [], [], False
     for card in cards:
-        inside = card.keyword == "SURFACE INTERACTION" or (inside and card.keyword in _BESIDE)
+        inside = card.keyword == "SURFACE INTERACTION" or (inside and card.keyword in _INTERACTION_WORDS)
         bond = card.keyword in BOND_WORDS
         if not bond or not inside:
             others.append(card)
