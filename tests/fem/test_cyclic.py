@@ -217,6 +217,25 @@ def test_in_space_about_an_axis_of_its_own():
     assert np.abs(around).max() < 0.05 * np.abs(radial).max()
 
 
+def test_sides_that_name_corners_alone_have_the_nodes_between_them_too():
+    flat = sg.annulus(inner=1.0, outer=2.0, n_radial=2, n_angular=4, angle=60.0, centre=(0.0, 0.0), cells="quad8")
+    corners = replace(flat, boundaries={name: flat.facets(name)[0][:, :2] for name in flat.boundaries})
+    energy = [
+        sg.solve(replace(ring_of(mesh), loads=[sg.Load("outer", pressure=teeth)])).last.strain_energy
+        for mesh in (flat, corners)
+    ]
+    assert energy[1] == pytest.approx(energy[0], rel=1e-12)
+
+
+def ring_of(mesh):
+    return sg.Model(
+        mesh,
+        bodies=[sg.Body("ring", STEEL)],
+        supports=[sg.Support("inner", u=(0.0, 0.0))],
+        cyclic_symmetries=[sg.CyclicSymmetry("start", "end", sectors=SECTORS)],
+    )
+
+
 def test_what_does_not_repeat_is_told():
     base = sg.Model(ring(60.0, 8), bodies=[sg.Body("ring", STEEL)], supports=[sg.Support("inner", u=(0.0, 0.0))])
     five = replace(base, cyclic_symmetries=[sg.CyclicSymmetry("start", "end", sectors=5)])

@@ -133,6 +133,9 @@ def _add_modes(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> Non
     modes.add_argument(
         "--joint", dest="joints", action="append", choices=JOINTS, help="state of the joints, again for more of them"
     )
+    modes.add_argument(
+        "--nodal-diameters", type=int, metavar="H", help="waves around the ring that a cyclic sector is of (default: 0)"
+    )
     modes.add_argument("--mode", type=int, metavar="K", help="whose loops are followed (default: 1)")
     modes.add_argument(
         "--amplitudes", type=float, nargs="+", metavar="A", help="of the loops: the largest displacement, ascending"

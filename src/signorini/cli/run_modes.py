@@ -65,7 +65,7 @@ def run_modes(deck: Deck, options: argparse.Namespace, clock: Clock, started: fl
             history = solve(deck.model, settings=deck.settings, clock=clock) if request.preload else None
             model, end = (deck.model, None) if history is None else (history.model, history.end)
             joints = request.joints if any(not contact.tied for contact in model.contacts) else (STUCK,)
-            modes = modes_by_joint(model, request.number, joints, end)
+            modes = modes_by_joint(model, request.number, joints, end, diameters=request.nodal_diameters)
             damping = None
             if history is not None and request.amplitudes:
                 damping = joint_damping(
@@ -75,7 +75,7 @@ def run_modes(deck: Deck, options: argparse.Namespace, clock: Clock, started: fl
             raise deck.locate(error) from error
         files = _write(deck, modes, damping, folder)
     if not options.quiet:
-        _tell(deck, history, modes, damping)
+        _tell(deck, history, modes, damping, request.nodal_diameters)
         print(f"{', '.join(files)} in {folder} ({time.perf_counter() - started:.2f} s)")
     return 0
 
@@ -83,7 +83,8 @@ def run_modes(deck: Deck, options: argparse.Namespace, clock: Clock, started: fl
 def _request(deck: Deck, options: argparse.Namespace) -> ModesRequest:
     """What the deck asks for, with what the command line says instead."""
     request = deck.modes or ModesRequest()
-    said = {"number": options.number, "joints": options.joints, "mode": options.mode, "amplitudes": options.amplitudes}
+    keys = ("number", "joints", "nodal_diameters", "mode", "amplitudes")
+    said = {key: getattr(options, key) for key in keys}
     try:
         return replace(request, **{key: value for key, value in said.items() if value is not None})
     except InputError as error:
@@ -111,9 +112,17 @@ def _save(figure: Figure, path: Path) -> None:
         literal(figure).savefig(aside, dpi=_PICTURE_DOTS)
 
 
-def _tell(deck: Deck, history: History | None, modes: Mapping[str, NaturalModes], damping: JointDamping | None) -> None:
+def _tell(
+    deck: Deck,
+    history: History | None,
+    modes: Mapping[str, NaturalModes],
+    damping: JointDamping | None,
+    diameters: int,
+) -> None:
     """Print what was found."""
     about = "of the bodies as they are drawn" if history is None else f"about the end of step '{history.last.name}'"
+    if diameters:
+        about = f"with {diameters} nodal diameter{'s' if diameters > 1 else ''} {about}"
     print(deck.model.title or "untitled")
     print(modes_table(modes, about), end="\n\n")
     if damping is not None:

@@ -9,11 +9,14 @@ from scipy.spatial.transform import Rotation
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
+from signorini.fem.places import nodes_at
 from signorini.fem.space import Space
 from signorini.model.links import CyclicSymmetry
 from signorini.model.model import Model
 
-_MATCH_TOL = 1e-6  # of the size of the mesh: how far a node, turned, may be from the one that it is
+_MATCH_TOL = (
+    1e-5  # of the size of the mesh: how far a node, turned, may be from the one that it is; decks have six digits
+)
 
 
 def cyclic_rows(space: Space, model: Model, j: int) -> tuple[IntArray, Array]:
@@ -52,9 +55,9 @@ def cyclic_sides(space: Space, model: Model, j: int) -> tuple[Array, IntArray, I
     InputError
         If a node of a side has no partner on the other.
     """
-    symmetry = model.cyclic_symmetries[j]
-    first, second = (space.mesh.nodes_of(name) for name in (symmetry.first, symmetry.second))
-    turn, partner = _matched(space, symmetry, first, second, ("cyclic_symmetry", j))
+    symmetry, where = model.cyclic_symmetries[j], ("cyclic_symmetry", j)
+    first, second = (nodes_at(space, name, where) for name in (symmetry.first, symmetry.second))
+    turn, partner = _matched(space, symmetry, first, second, where)
     return turn, first, second[partner]
 
 

@@ -33,6 +33,7 @@ class Neighbourhood:
     space, model, constraints : of all of them; of the model what contacts need
     shares : (its dofs, dofs of the sector) what displacements of the sector are there
     source : (nodes,) of which node of the sector every node is a copy
+    ahead : (its dofs,) how many sectors on from the sector they are; 0 of obstacles
     turn : (d, d) rotation R of a sector onto the next
     original : (nodes of the sector,) which node of the first side R takes to one of the second; of all others itself
     """
@@ -42,6 +43,7 @@ class Neighbourhood:
     constraints: Constraints
     shares: sp.csr_array
     source: IntArray
+    ahead: IntArray
     turn: Array
     original: IntArray
 
@@ -69,7 +71,8 @@ def neighbourhood(space: Space, model: Model, constraints: Constraints) -> Neigh
         index[-k, second] = index[1 - k, first]
     if count == sectors:
         index[after, second] = index[-before, first]
-    turns = np.stack([np.linalg.matrix_power(turn, k) for k in (*range(after + 1), *range(-before, 0))])
+    on = np.array([*range(after + 1), *range(-before, 0)])
+    turns = np.stack([np.linalg.matrix_power(turn, k) for k in on.tolist()])
     index[:, first[first == second]] = first[first == second]
     mesh = _mesh(space.mesh, model, index, np.concatenate([(space.mesh.points - centre) @ t.T + centre for t in turns]))
     given: dict[str, Any] = {
@@ -96,6 +99,9 @@ def neighbourhood(space: Space, model: Model, constraints: Constraints) -> Neigh
         ),
         shares=shares,
         source=source,
+        ahead=np.concatenate([np.repeat(on[which], space.components), np.zeros(shares.shape[0], int)])[
+            : shares.shape[0]
+        ],
         turn=turn,
         original=original,
     )

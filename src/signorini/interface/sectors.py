@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -44,14 +45,41 @@ def sector_interface(space: Space, model: Model, constraints: Constraints) -> In
     across = contacts_across(space, model)
     if not across:
         return make_interface(space, model, constraints)
+    near, kept = _with_neighbours(space, model, constraints, across)
+    return replace(kept, B=sp.csr_array(kept.B @ near.shares))
+
+
+def wave_motions(
+    space: Space, model: Model, constraints: Constraints, angle: float
+) -> tuple[sp.csr_array, sp.csr_array]:
+    """Real and imaginary part of the motions of pairs, (rows, dofs) each, where every sector is a phase ahead.
+
+    Parameters
+    ----------
+    space, model, constraints : as of :func:`sector_interface`, whose pairs they are
+    angle : from one sector to the next
+    """
+    across = contacts_across(space, model)
+    if not across:
+        B = make_interface(space, model, constraints).B
+        return B, sp.csr_array(B.shape)
+    near, kept = _with_neighbours(space, model, constraints, across)
+    phase = angle * near.ahead
+    real, imaginary = (kept.B @ sp.diags_array(part) @ near.shares for part in (np.cos(phase), np.sin(phase)))
+    return sp.csr_array(real), sp.csr_array(imaginary)
+
+
+def _with_neighbours(
+    space: Space, model: Model, constraints: Constraints, across: Sequence[int]
+) -> tuple[Neighbourhood, Interface]:
+    """The sector with its neighbours, and its pairs, whose motions are those of all their displacements."""
     near = neighbourhood(space, model, constraints)
     for i in across:
         _refuse_other_obstacle(space, model, near, i)
     contacts = [_repeated(space, near, contact, i) for i, contact in enumerate(model.contacts)]
     found = make_interface(near.space, replace(near.model, contacts=contacts), near.constraints)
     own = np.append(near.original, -1)[np.minimum(found.node, len(near.original))] == found.node
-    kept = found.among(own)
-    return replace(kept, B=sp.csr_array(kept.B @ near.shares), moments=found.moments[found.rows(own)])
+    return near, replace(found.among(own), moments=found.moments[found.rows(own)])
 
 
 def _repeated(space: Space, near: Neighbourhood, contact: Contact, i: int) -> Contact:

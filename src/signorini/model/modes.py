@@ -35,11 +35,12 @@ class ModesRequest:
     mode : whose loops are followed, from 1, of the stuck joint
     amplitudes : of the loops, ascending, length; none: no loop
     cycles : at each amplitude, of which the last is the loop: the first ones may shake down
+    nodal_diameters : waves around the ring that a cyclic sector is of
 
     Raises
     ------
     InputError
-        For a number out of its range, amplitudes that do not ascend, or loops without a preload.
+        For a number out of its range, amplitudes that do not ascend, or loops without a preload or of waves.
     """
 
     number: int = 6
@@ -48,10 +49,12 @@ class ModesRequest:
     mode: int = 1
     amplitudes: Sequence[float] = ()
     cycles: int = 2
+    nodal_diameters: int = 0
 
     def __post_init__(self) -> None:
         whole(self.number, ("number",), most=MOST_MODES)
         whole(self.mode, ("mode",), most=MOST_MODES)
+        whole(self.nodal_diameters, ("nodal_diameters",), least=0)
         whole(self.cycles, ("cycles",), most=MOST_CYCLES)
         if isinstance(self.joints, str) or not self.joints:
             raise InputError(f"are {self.joints!r}; expected a list of states", where=("joints",))
@@ -61,6 +64,10 @@ class ModesRequest:
             raise InputError(f"is {self.preload!r}; expected true or false", where=("preload",))
         object.__setattr__(self, "joints", tuple(dict.fromkeys(self.joints)))
         object.__setattr__(self, "amplitudes", ascending(self.amplitudes, ("amplitudes",)))
+        if self.amplitudes and self.nodal_diameters:
+            raise InputError(
+                "are those of loops alike in all sectors; expected nodal_diameters = 0", where=("amplitudes",)
+            )
         if self.amplitudes and not self.preload:
             raise InputError("are those of loops about a preload; expected preload = true", where=("amplitudes",))
 

@@ -40,7 +40,7 @@ def write_shapes(model: Model, modes: Mapping[str, NaturalModes], path: Path) ->
     """Write every mode as a point array ``JOINT_MODE``, 3 components, mass-normalised, on the undeformed mesh.
 
     ``JOINT_MODE_force`` are its inertia forces, ``omega^2 M v``, by which as a static load the largest displacement of
-    bodies with that joint is 1.
+    bodies with that joint is 1; ``JOINT_MODE_imaginary`` is in their place where a wave goes around.
 
     Parameters
     ----------
@@ -54,9 +54,12 @@ def write_shapes(model: Model, modes: Mapping[str, NaturalModes], path: Path) ->
     arrays = {}
     for joint, own in modes.items():
         for k, (shape, force) in enumerate(zip(own.shapes, own.forces, strict=True)):
-            reach = float(np.linalg.norm(shape, axis=1).max())
-            arrays[f"{joint}_{k + 1}"] = padded(shape, 3)
-            arrays[f"{joint}_{k + 1}_force"] = padded(own.squares[k] / reach * force, 3)
+            name, reach = f"{joint}_{k + 1}", float(np.linalg.norm(shape, axis=1).max())
+            arrays[name] = padded(shape.real, 3)
+            if np.iscomplexobj(shape):
+                arrays[f"{name}_imaginary"] = padded(shape.imag, 3)
+            else:
+                arrays[f"{name}_force"] = padded(own.squares[k] / reach * force, 3)
     grid = meshio.Mesh(
         padded(model.mesh.points, 3),
         list(model.mesh.cells.items()),

@@ -36,7 +36,7 @@ def draw_modes(model: Model, modes: Mapping[str, NaturalModes]) -> Figure:
 
     count = min(_SHOWN_MODES, *(len(own) for own in modes.values()))
     canvas = _Plane(model) if model.dimension == 2 else _Solid(model)
-    low, high = canvas.frame(np.concatenate([own.shapes[:count] for own in modes.values()]))
+    low, high = canvas.frame(np.concatenate([own.shapes[:count].real for own in modes.values()]))
     shape = float(np.clip((high - low)[1] / (high - low)[0], 0.2, 2.5))
     size = (_PANEL_WIDTH * count, (_PANEL_WIDTH * shape + 0.4) * len(modes) + 0.5)
     figure = Figure(figsize=size, layout="constrained")
@@ -46,7 +46,7 @@ def draw_modes(model: Model, modes: Mapping[str, NaturalModes]) -> Figure:
             frame(axes, low, high)
             axes.set_axis_off()
             label(axes, title=f"{joint}, {own.frequencies[k]:.5g}" if len(modes) > 1 else f"{own.frequencies[k]:.5g}")
-            canvas.draw(axes, own.shapes[k])
+            canvas.draw(axes, own.shapes[k].real)
     around = f"; {HOOP_WORDS}" if model.twists else ""
     entitle(figure, model.title, f"natural modes, cycles per time; displacements are not to scale{around}")
     return figure

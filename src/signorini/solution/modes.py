@@ -19,7 +19,8 @@ class NaturalModes(Short):
     ----------
     joint : of :data:`signorini.model.modes.JOINTS`
     squares : (k,) omega^2, ascending, angle^2 per time^2; 0 for rigid motions
-    shapes : (k, nodes, d) displacements, mass-normalised: ``v M v = 1``
+    shapes : (k, nodes, d) displacements, mass-normalised: ``v M v = 1``; of a sector over one, and complex where a wave
+        goes around the ring: sector s moves by ``real(exp(2 pi i h s / N) v)``, turned
     forces : (k, nodes, d) ``M v``: the nodal forces of a mode, by which displacements are projected on it
     residuals : (k,) ``|K v - omega^2 M v|`` in the norm of ``(K + s M)^-1``, of that of ``K v + s M v``: some exact
         omega^2 + s is as near, relatively
@@ -48,4 +49,4 @@ class NaturalModes(Short):
     @property
     def effective_masses(self) -> Array:
         """(k, d) Mass that moves with each mode along the axes, ``(sum M v)^2``; of all modes that of the bodies."""
-        return np.asarray(self.forces.sum(axis=1) ** 2)
+        return np.asarray(np.abs(self.forces.sum(axis=1)) ** 2)

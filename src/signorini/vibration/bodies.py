@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -41,6 +41,7 @@ class VibratingBodies:
     tied, closed : (n,) pairs that are tied; others that touch
     compliance : (d, n) of the pairs as contacts state it, length per force
     stretch : omega^2 of the size that stretching the bodies has
+    copies : 2 where displacements have a real and an imaginary part, one after the other; 1 otherwise
     """
 
     space: Space
@@ -53,6 +54,7 @@ class VibratingBodies:
     closed: BoolArray
     compliance: Array
     stretch: float
+    copies: int = 1
 
     def rows(self, joint: str) -> IntArray:
         """Rows of B that a joint holds: those of ties; of closed pairs all, those along the normal, or none."""
@@ -66,13 +68,14 @@ class VibratingBodies:
         return np.flatnonzero(kept.ravel() & seen)
 
 
-def vibrating_bodies(model: Model, end: Checkpoint | None = None) -> VibratingBodies:
+def vibrating_bodies(model: Model, end: Checkpoint | None = None, *, apart: bool = False) -> VibratingBodies:
     """A model at the end of a history, or as it was drawn.
 
     Parameters
     ----------
     model : the model
     end : of the history, whose supports hold and whose closed pairs touch; None: pairs without a gap touch
+    apart : of sectors: without what holds their sides to each other
 
     Raises
     ------
@@ -84,7 +87,8 @@ def vibrating_bodies(model: Model, end: Checkpoint | None = None) -> VibratingBo
     carriers = len(model.obstacles) + len(model.rigid_bodies)
     space = make_space(model.mesh, kind=model.kind, obstacles=carriers, linked=linked_nodes(model))
     standing = None if end is None else end.standing
-    constraints = make_constraints(space, model, without=standing.released if standing else ())
+    posed = replace(model, cyclic_symmetries=()) if apart else model
+    constraints = make_constraints(space, posed, without=standing.released if standing else ())
     _refuse_massless(model, space, constraints)
     always = make_constraints(space, model, without=standing.loosened) if standing else constraints
     interface = (sector_interface if model.cyclic_symmetries else make_interface)(space, model, always)

@@ -22,11 +22,12 @@ from signorini.solution.modes import NaturalModes
 from signorini.vibration.bodies import vibrating_bodies
 from signorini.vibration.eigen import Pairs, lowest
 from signorini.vibration.inverse import JointInverse, ShiftedBodies, shifted
+from signorini.vibration.waves import waves_of
 
 _MODE_TOL = 1e-6  # of omega^2 + s, and of 1: residuals and products of different modes; half of it in frequencies
 
 
-def natural_modes(of: Model | History, number: int, *, joint: str = STUCK) -> NaturalModes:
+def natural_modes(of: Model | History, number: int, *, joint: str = STUCK, nodal_diameters: int = 0) -> NaturalModes:
     """The lowest natural modes of bodies as they are drawn, or about the end of a history.
 
     Parameters
@@ -35,6 +36,8 @@ def natural_modes(of: Model | History, number: int, *, joint: str = STUCK) -> Na
         touch that do at its end, under the supports that hold there
     number : of modes
     joint : "stuck" (pairs that touch move as one), "slipping" (they stay closed), or "open"
+    nodal_diameters : of a cyclic sector: h waves around the ring, ``u(R x) = exp(2 pi i h / N) R u(x)``, up to half the
+        number of sectors; 0: all sectors move alike
 
     Raises
     ------
@@ -54,15 +57,15 @@ def natural_modes(of: Model | History, number: int, *, joint: str = STUCK) -> Na
     array([0.25, 0.75])
     """
     if isinstance(of, Model):
-        return modes_by_joint(of, number, (joint,))[joint]
+        return modes_by_joint(of, number, (joint,), diameters=nodal_diameters)[joint]
     if of.end is None:
         raise InputError("has finished no step; there is no state to vibrate about", where=("of",))
-    return modes_by_joint(of.model, number, (joint,), of.end)[joint]
+    return modes_by_joint(of.model, number, (joint,), of.end, diameters=nodal_diameters)[joint]
 
 
 @one_thread()
 def modes_by_joint(
-    model: Model, number: int, joints: Sequence[str], end: Checkpoint | None = None
+    model: Model, number: int, joints: Sequence[str], end: Checkpoint | None = None, *, diameters: int = 0
 ) -> dict[str, NaturalModes]:
     """The lowest modes by state of the joints; one factorisation serves all of them.
 
@@ -72,6 +75,7 @@ def modes_by_joint(
     number : of modes
     joints : of :data:`signorini.model.modes.JOINTS`
     end : of a history of the model, about whose state the bodies vibrate; None: as they were drawn
+    diameters : nodal diameters, see `natural_modes`
 
     Raises
     ------
@@ -83,13 +87,16 @@ def modes_by_joint(
     whole(number, ("number",), most=MOST_MODES)
     for joint in joints:
         choice(joint, JOINTS, ("joint",), "state of the joints")
-    ready = shifted(vibrating_bodies(model, end))
+    whole(diameters, ("nodal_diameters",), least=0)
+    ready = shifted(waves_of(model, diameters, end) if diameters else vibrating_bodies(model, end))
     return {joint: _of_joint(ready, joint, number) for joint in joints}
 
 
 def _of_joint(ready: ShiftedBodies, joint: str, number: int) -> NaturalModes:
     inverse = JointInverse.of(ready, joint)
-    pairs, missed = lowest(inverse, number)
+    copies = ready.bodies.copies
+    (squares, vectors), missed = lowest(inverse, copies * number)
+    pairs = squares[::copies], vectors[:, ::copies]  # of the two that are a quarter of a wave apart the first
     modes = _measured(inverse, joint, pairs, missed)
     worst = max(float(modes.residuals.max()), modes.orthogonality, modes.parting)
     if not worst <= _MODE_TOL or missed:
@@ -123,8 +130,8 @@ def _measured(inverse: JointInverse, joint: str, pairs: Pairs, missed: int | Non
     return NaturalModes(
         joint=joint,
         squares=squares[order],
-        shapes=_at_nodes(u, space)[order],
-        forces=_at_nodes(bodies.mass @ u, space)[order],
+        shapes=_at_nodes(u, space, bodies.copies)[order],
+        forces=_at_nodes(bodies.mass @ u, space, bodies.copies)[order],
         residuals=residuals[order],
         orthogonality=float(products.max(initial=0.0)),
         parting=float((parting / np.abs(vectors).max(axis=0)).max()),
@@ -138,6 +145,8 @@ def _signs(vectors: Array) -> Array:
     return np.where(largest < 0.0, -1.0, 1.0)
 
 
-def _at_nodes(values: Array, space: Space) -> Array:
-    """(k, nodes, d) Of dofs (dofs, k), without those of what is rigid."""
-    return np.ascontiguousarray(values[: space.dofs_of_nodes].T.reshape(-1, len(space.mesh.points), space.components))
+def _at_nodes(values: Array, space: Space, copies: int) -> Array:
+    """(k, nodes, c) Of dofs (copies dofs, k), without those of what is rigid; complex where there are two copies."""
+    real, *imaginary = (part[: space.dofs_of_nodes] for part in np.split(values, copies))
+    both = real + 1j * imaginary[0] if imaginary else real
+    return np.ascontiguousarray(both.T.reshape(-1, len(space.mesh.points), space.components))

@@ -16,6 +16,8 @@ from signorini.model.modes import ModesRequest
 _OPTIONS = ("SOLVER", "STORAGE", "EIGENSOLVER", "NORMALIZATION")  # how others find modes, and how long these are
 _OF_SETS = ("NSET", "ELSET", "AMPLITUDE")  # which act on nothing by themselves
 
+_WAVES = "SELECT CYCLIC SYMMETRY MODES"
+
 _STRESS_NOTE = (
     "*FREQUENCY: modes are about the end of the steps before; how their stresses stiffen bodies, which CalculiX adds "
     "with PERTURBATION, is not in them"
@@ -88,12 +90,32 @@ def _read(step: Card, asking: Card, members: Sequence[Card], alone: bool) -> Fre
     for card in members:
         if card.keyword == "BOUNDARY" and not alone:
             raise card.error("stands in a *FREQUENCY step behind others; expected it in a static step")
-        if card.keyword not in (*MODES_WORDS, "BOUNDARY", *_OF_SETS, *PRINTED, *HARMLESS):
+        if card.keyword not in (*MODES_WORDS, _WAVES, "BOUNDARY", *_OF_SETS, *PRINTED, *HARMLESS):
             raise card.error(unsupported(card.keyword, "inside a *FREQUENCY step"))
     try:
-        request = ModesRequest(number=row.whole(0, "the number of modes"), preload=not alone)
+        number = row.whole(0, "the number of modes")
+        request = ModesRequest(number=number, preload=not alone, nodal_diameters=_diameters(members))
     except InputError as error:
         raise row.error(error.message) from error
     limit = [_LIMIT_NOTE] if row.number(1, "a frequency", 0.0) > 0.0 else []
     stress = [] if alone else [_STRESS_NOTE]
     return FrequencyStep(request=request, notes=(_FILES_NOTE, *limit, *stress))
+
+
+def _diameters(members: Sequence[Card]) -> int:
+    """Nodal diameters that a step selects, 0 where it selects none.
+
+    Raises
+    ------
+    DeckError
+        For more than one number of them.
+    """
+    found = [card for card in members if card.keyword == _WAVES]
+    if not found:
+        return 0
+    card = found[-1]
+    card.refuse_unknown(("NMIN", "NMAX"))
+    least, most = (card.get(key) or "0" for key in ("NMIN", "NMAX"))
+    if least != most or not least.isdigit():
+        raise card.error(f"has NMIN={least} and NMAX={most}; expected one whole number as both, and a run for each")
+    return int(least)
