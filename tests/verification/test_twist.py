@@ -12,7 +12,7 @@ from signorini.fem.stiffness import stiffness
 from signorini.fem.stress import body_stresses
 from signorini.gallery.twisted import STEEL, fit_under_torque, ring_under_torque, shaft_in_torsion
 from signorini.model.kind import TWIST
-from signorini.reference.torsion import shaft_twist
+from signorini.reference.torsion import plastic_torque, shaft_twist
 
 
 @pytest.mark.parametrize(
@@ -174,9 +174,7 @@ def test_a_ring_in_space_becomes_its_meridian():
 
 def test_what_bodies_that_twist_do_not_do():
     model = fit_under_torque()
-    flows = replace(STEEL, plastic=sg.Plastic(yield_stress=200.0))
     for changes, words in (
-        ({"bodies": [sg.Body("shaft", flows), model.bodies[1]]}, "'shaft' yields; expected elastic bodies where they"),
         ({"contacts": [replace(model.contacts[0], wear=sg.Wear(1e-8))]}, "wear: is given, but bodies twist"),
         (
             {"contacts": [replace(model.contacts[0], sliding="finite")]},
@@ -210,3 +208,35 @@ def test_turning_around_the_axis_is_no_large_motion():
     held = [sg.Support("bottom", u=(0, 0, 0)), sg.Support("top", u=(0, 0, "x"))]
     wrung = sg.solve(replace(shaft_in_torsion(), supports=held, loads=[])).last
     assert any("body 'block' strains or turns by" in note for note in wrung.notes)
+
+
+FLOWS = replace(STEEL, plastic=sg.Plastic(yield_stress=200.0))
+LIMIT = {"shear_modulus": STEEL.shear_modulus, "shear_stress": 200.0 / np.sqrt(3.0), "inner": 5.0, "outer": 10.0}
+
+
+@pytest.mark.parametrize(("cells", "formulation"), [("quad", None), ("quad", "incompatible"), ("triangle6", None)])
+def test_the_limit_torque_is_proved(cells, formulation):
+    """A hub that turns the shaft: up to 2 pi k (b^3 - a^3) / 3 there is an equilibrium, and beyond it a proof."""
+    limit = plastic_torque(rate=1e9, **LIMIT)
+    shaft = shaft_in_torsion(cells=cells, n=4)
+    shaft = replace(
+        shaft,
+        bodies=[sg.Body("block", FLOWS, formulation=formulation)],
+        rigid_bodies=[sg.RigidBody("hub", on="top", point=(0.0, 8.0))],
+        supports=[*shaft.supports, sg.Support("hub", u=(0.0, 0.0, None))],
+    )
+    within, beyond = (replace(shaft, loads=[sg.Load("hub", force=(None, None, part * limit))]) for part in (0.99, 1.25))
+    assert sg.solve(within).last.yielding.share > 0.5
+    with pytest.raises(sg.SolveFailed, match=r"flow plastically at 80\.00[0-9]*% of the step at most"):
+        sg.solve(beyond)
+
+
+def test_a_fit_whose_hub_yields_still_holds_by_its_circle():
+    model = fit_under_torque(turn=0.003, pull=0.02, interference=0.04, n=(2, 2))
+    model = replace(model, bodies=[model.bodies[0], sg.Body("hub", FLOWS)])
+    model = replace(model, steps=[model.steps[0], replace(model.steps[1], increments=6)])
+    found = sg.solve(model).last
+    fit, (_, pull, torque) = found.contacts[0], found.reactions["held"]
+    assert found.yielding.share > 0.3
+    assert np.hypot(torque / 10.0, pull) == pytest.approx(0.2 * float(fit.pressure @ fit.area), rel=1e-3)
+    assert found.certificate.passed

@@ -87,14 +87,11 @@ def check_twist(bodies: Sequence[Body], contacts: Sequence[Contact]) -> None:
     Raises
     ------
     InputError
-        For a body that yields or lacks shear moduli, and a contact that wears or slides far.
+        For a body that lacks shear moduli, and a contact that wears or slides far.
     """
     for i, body in enumerate(bodies):
         if isinstance(body.material, Orthotropic) and not body.material.solid:
             words = "has no G13 and G23; an axisymmetric model with twist needs them"
-            raise InputError(words, where=("body", i, "material"))
-        if body.material.yields:
-            words = f"'{body.name}' yields; expected elastic bodies where they twist, or a model in space"
             raise InputError(words, where=("body", i, "material"))
     for i, contact in enumerate(contacts):
         if contact.friction_axis is not None and contact.friction_axis[2] and any(contact.friction_axis[:2]):

@@ -127,7 +127,7 @@ class YieldingBodies:
         found = np.zeros((len(self.body), self.components))
         for group in self.groups:
             own = group.own
-            kernels.add_strains(group.cells, group.gradients, u, self.space.dimension, found[own])
+            kernels.add_strains(group.cells, group.gradients, u, self.space.components, found[own])
             if group.internal:
                 free = np.zeros_like(found[own]) if plastic is None else plastic[own].copy()
                 if heat is not None:
@@ -252,7 +252,7 @@ class YieldingBodies:
         """(dofs,) ``sum_q w B^T sigma`` of stresses (p, n)."""
         found = np.zeros(self.space.number_of_dofs)
         for group in self.groups:
-            d = self.space.dimension
+            d = self.space.components
             kernels.add_forces(group.cells, group.gradients, group.weights, stress[group.own], d, found)
         return found
 
@@ -264,7 +264,7 @@ class YieldingBodies:
         response : what the tangent is made at
         left : part of the elastic law that yielding leaves in place, 0 .. 1
         """
-        data = np.zeros(self.space.dimension**2 * len(self.pattern[1]))
+        data = np.zeros(self.space.components**2 * len(self.pattern[1]))
         for group in self.groups:
             own = group.own
             here = response.points.part(own)
@@ -276,7 +276,7 @@ class YieldingBodies:
 
     def rows(self) -> sp.csr_array:
         """(dofs, dofs) The pattern of `softening`, its entries numbered from 1."""
-        indptr, indices = assembly.unknown_pattern(*self.pattern, self.space.dimension)
+        indptr, indices = assembly.unknown_pattern(*self.pattern, self.space.components)
         dofs = self.space.number_of_dofs
         full = np.concatenate([indptr, np.full(dofs + 1 - len(indptr), indptr[-1], indptr.dtype)])
         return sp.csr_array((np.arange(1.0, len(indices) + 1.0), indices, full), shape=(dofs, dofs))

@@ -78,14 +78,14 @@ def eliminated(gradients: Array, modes: Array, weights: Array, law: Array) -> Mo
 @njit(cache=True)
 def _couple(gradients: Array, modes: Array, weights: Array, law: Array, stiffness: Array, coupling: Array) -> None:
     """K_aa, (m, i, i), and K_au, (m, i, d k), added to zeros; arguments as of `eliminated`."""
-    m, points, k, e = gradients.shape
+    m, points, k, _ = gradients.shape
     n, count = law.shape[1], stiffness.shape[1]
     d = 2 if n == 4 else 3
     B, G, DG = np.empty((n, k * d)), np.empty((n, count)), np.empty((n, count))
     for c in range(m):
         for q in range(points):
-            strain_rows(gradients[c, q], d, e == 3, B)
-            strain_rows(modes[c, q], d, e == 3, G)
+            strain_rows(gradients[c, q], d, B)
+            strain_rows(modes[c, q], d, G)
             for r in range(n):
                 for x in range(count):
                     value = 0.0
@@ -241,7 +241,7 @@ def settle(
     """
     m, points = weights.shape
     n, count = new.strain.shape[1], modes.stiffness.shape[1]
-    d, ring = (2 if n == 4 else 3), modes.gradients.shape[3] == 3 and n == 4
+    d = 2 if n == 4 else 3
     G, base, M = np.empty((points, n, count)), np.empty((points, n)), np.empty((n, n))
     loss, L, room = np.empty((count, count)), np.empty((count, count)), np.empty((2, n))
     at, end, h, step = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
@@ -251,7 +251,7 @@ def settle(
             continue
         size, unit, b = 0.0, 0.0, body[first]
         for q in range(points):
-            strain_rows(modes.gradients[c, q], d, ring, G[q])
+            strain_rows(modes.gradients[c, q], d, G[q])
             base[q] = new.strain[first + q]
             force = weights[c, q] * np.abs(G[q]).max()
             unit += force * laws.stress[b, 0, 0]

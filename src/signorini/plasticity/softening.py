@@ -53,7 +53,7 @@ def soften(
     """
     gradients, weights, modes = shape
     rows, columns = pattern
-    m, points, k, e = gradients.shape
+    m, points, k, _ = gradients.shape
     n = dual.shape[1]
     d = 2 if n == 4 else 3
     B, MB, M, K = np.empty((n, k * d)), np.empty((n, k * d)), np.empty((n, n)), np.empty((k * d, k * d))
@@ -69,11 +69,11 @@ def soften(
             i = first + q
             if not point.yields[i]:
                 continue
-            strain_rows(gradients[c, q], d, e == 3, B)
+            strain_rows(gradients[c, q], d, B)
             taken(laws, body[i], point, i, dual[i], left, M)
             w = weights[c, q]
             if count:
-                strain_rows(modes.gradients[c, q], d, e == 3, G)
+                strain_rows(modes.gradients[c, q], d, G)
                 _subtract_product(G, modes.share[c], B)
             for r in range(n):
                 for y in range(k * d):

@@ -7,6 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
+from signorini.fem.elasticity import STRAIN_PARTS
 from signorini.plasticity.bodies import YieldingBodies
 from signorini.plasticity.groups import PointGroup
 from signorini.plasticity.laws import Heat
@@ -20,7 +21,7 @@ def volume_rows(bodies: YieldingBodies) -> sp.csr_array:
     With a mean dilatation it is the projected one, with internal modes what is left where they keep as much of the
     volume as they can. None in plane stress, where the thickness gives way.
     """
-    d, dofs = bodies.space.dimension, bodies.space.number_of_dofs
+    d, dofs = bodies.space.components, bodies.space.number_of_dofs
     found = [sp.csr_array((0, dofs))]
     for group in bodies.groups if not bodies.laws.thin else ():
         rows = _rows_of_cells(group, d)
@@ -52,27 +53,27 @@ def flow_strains(bodies: YieldingBodies, v: Array, heat: Heat) -> Array:
         return rate
     for group in bodies.groups:
         if group.internal:
-            of_modes = _trace(group.modes.gradients, bodies.space.dimension)
+            of_modes = _trace(group.modes.gradients, bodies.space.components)
             volume = rate[group.own, :3].sum(axis=1).reshape(*group.weights.shape, 1)
             group.add_mode_strains(-(np.linalg.pinv(of_modes) @ volume).ravel(), rate[group.own])
     return rate
 
 
-def _rows_of_cells(group: PointGroup, dimension: int) -> Array:
+def _rows_of_cells(group: PointGroup, components: int) -> Array:
     """(m, rows, k d) The rows of every cell."""
     size = np.sqrt(group.weights)[:, :, None]
-    rows = size * _trace(group.gradients, dimension)
+    rows = size * _trace(group.gradients, components)
     if group.group.formulation == "mean dilatation":
         functions = size * group.group.block.pressures
         return np.asarray(np.linalg.qr(functions)[0].swapaxes(1, 2) @ rows)
     if group.internal:
-        of_modes = size * _trace(group.modes.gradients, dimension)
+        of_modes = size * _trace(group.modes.gradients, components)
         return np.asarray(rows - of_modes @ (np.linalg.pinv(of_modes) @ rows))
     return rows
 
 
-def _trace(gradients: Array, dimension: int) -> Array:
+def _trace(gradients: Array, components: int) -> Array:
     """(m, q, k d) Volume strain of unit motions of shape functions or modes with gradients (m, q, k, e)."""
-    rows = gradients[..., :dimension].copy()
-    rows[..., 0] += gradients[..., dimension:].sum(axis=-1)  # around an axis that of the hoop
+    parts = STRAIN_PARTS[components, gradients.shape[3]]
+    rows = gradients @ ((parts >= 0) & (parts < 3)).T.astype(np.float64)
     return rows.reshape(*rows.shape[:2], -1)

@@ -26,6 +26,27 @@ def shaft_twist(*, torque: float, shear_modulus: float, inner: float, outer: flo
     return 2.0 * torque * length / (np.pi * shear_modulus * (outer**4 - inner**4))
 
 
+def plastic_torque(*, rate: float, shear_modulus: float, shear_stress: float, inner: float, outer: float) -> float:
+    """Torque of a round shaft that yields at a shear stress beyond the radius ``c = k / (G rate)``, force times length.
+
+    ``2 pi (G rate (c^4 - a^4) / 4 + k (b^3 - c^3) / 3)``, c between a and b.
+
+    Parameters
+    ----------
+    rate : angle per length
+    shear_modulus, shear_stress : G and k
+    inner, outer : a and b
+
+    Examples
+    --------
+    >>> round(plastic_torque(rate=1e9, shear_modulus=1.0, shear_stress=3.0, inner=0.0, outer=1.0) / np.pi, 12)
+    2.0
+    """
+    c = min(max(shear_stress / (shear_modulus * rate), inner), outer)
+    elastic = 0.25 * shear_modulus * rate * (c**4 - inner**4)
+    return 2.0 * np.pi * (elastic + shear_stress * (outer**3 - c**3) / 3.0)
+
+
 def disc_torque(*, angle: float, shear_modulus: float, radius: float) -> float:
     """Torque that turns a disc stuck to a half-space, ``16/3 G a^3 angle`` (Reissner, Sagoci 1944).
 

@@ -108,6 +108,7 @@ QUICK: tuple[Case, ...] = (
     cohesion.bar_torn_off,
     cohesion.double_cantilever,
     twist.torsion_of_a_shaft,
+    twist.shaft_that_yields,
     twist.torque_of_a_press_fit,
     twist.ring_in_space,
     twist.sticking_punch,

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,7 +18,12 @@ from signorini.gallery.twisted import (
     shaft_in_torsion,
     turned_punch,
 )
-from signorini.reference.torsion import ball_torsion, disc_torque, gross_torque, shaft_twist
+from signorini.model.body import Body
+from signorini.model.conditions import Support
+from signorini.model.plastic import Plastic
+from signorini.model.step import Step
+from signorini.model.varying import Formula
+from signorini.reference.torsion import ball_torsion, disc_torque, gross_torque, plastic_torque, shaft_twist
 from signorini.verify.check import Check, checks_of
 
 _SHEAR = 1000.0 / 2.6  # of blocks with E 1000 and nu 0.3
@@ -34,6 +40,35 @@ def torsion_of_a_shaft() -> Iterator[Check]:
             ("torque on the support", found.reactions["bottom"][2], -1000.0, 1e-10),
             source="Coulomb, T L / (G J)",
         )
+
+
+def shaft_that_yields() -> Iterator[Check]:
+    """A hollow shaft that is twisted beyond first yield and back, with a core that stays elastic."""
+    shear = 200.0 / np.sqrt(3.0)
+    shaft = shaft_in_torsion(cells="quad8", n=8)
+    elastic = shaft_twist(torque=1.0, shear_modulus=STEEL.shear_modulus, inner=5.0, outer=10.0, length=8.0)
+    steps = [Step(scale={"turn": part}) for part in (1.3, 1.6, 1.0)]
+    found = solve(
+        replace(
+            shaft,
+            bodies=[Body("block", replace(STEEL, plastic=Plastic(yield_stress=200.0)))],
+            supports=[*shaft.supports, Support("top", u=(None, None, Formula("0.001*x")), name="turn")],
+            loads=[],
+            steps=steps,
+        )
+    )
+    first, second, third = (float(step.reactions["turn"][2]) for step in found.steps)
+    most, more = (
+        plastic_torque(rate=rate / 8.0, shear_modulus=STEEL.shear_modulus, shear_stress=shear, inner=5.0, outer=10.0)
+        for rate in (0.0013, 0.0016)
+    )
+    yield from checks_of(
+        "B20 hollow shaft that yields, quad8",
+        ("torque with a core of 0.88 of the radius", first, most, 1e-3),
+        ("torque with a core of 0.71 of it", second, more, 1e-3),
+        ("torque taken back", second - third, 0.0006 / elastic, 1e-9),
+        source="Hill (1950), chapter IV",
+    )
 
 
 def torque_of_a_press_fit() -> Iterator[Check]:
