@@ -67,7 +67,7 @@ def test_the_wheel_works_in_an_empty_environment(built, tmp_path):
     _, wheel = built
     venv.create(tmp_path / "venv", with_pip=False)
     python = tmp_path / "venv" / ("Scripts" if os.name == "nt" else "bin") / "python"
-    install = ["install", "--quiet", "--no-deps", "--no-index", "--disable-pip-version-check", wheel]
+    install = ["install", "--quiet", "--no-deps", "--no-index", "--no-compile", "--disable-pip-version-check", wheel]
     run(sys.executable, "-m", "pip", "--python", python, *install, cwd=tmp_path)
     (own,) = {
         Path(line) for line in run(python, "-c", "import signorini; print(signorini.__file__)", cwd=tmp_path).split()
@@ -78,7 +78,6 @@ def test_the_wheel_works_in_an_empty_environment(built, tmp_path):
     program = python.with_name("signorini")
     assert run(program, "--version", cwd=tmp_path).strip() == f"signorini {__version__}"
     deck = ROOT / "examples" / "zhu_cylinder_frictionless.toml"
-    assert "93 nodes" in run(program, "check", deck, cwd=tmp_path)
     # solved here, where loops are compiled: there that would take a minute
     assert main(["run", str(deck), "-o", str(tmp_path / "out"), "--quiet"]) == 0
     run(program, "report", "out", cwd=tmp_path)
