@@ -212,3 +212,16 @@ def test_given_increments_that_leave_much_of_the_work_are_refused() -> None:
     words = "step 'rub': increments are too long where sides wear: "
     assert str(caught.value).startswith(words)
     assert "of the work is missing in the energy balance; expected more of them, or none given" in str(caught.value)
+
+
+def test_sides_may_slide_by_strides_while_they_lose_what_has_rubbed() -> None:
+    """Much of it at once, at constant loads: volume and energies are exact."""
+    model = block_on_bed(stroke=0.05)
+    worn = replace(model, contacts=[replace(model.contacts[0], wear=sg.Wear(0.1, mortar=0.2))])
+    solution = sg.solve(worn)
+    wear, last = solution.end.state.wear, solution.last
+    assert (wear.volume + wear.loose).sum() == pytest.approx(0.3 * rubbed(solution, 0.3), rel=1e-12)
+    assert last.energy_defect == pytest.approx(0.0, abs=1e-12 * last.work)
+    assert last.released > 0.1 * last.work
+    factors = [instant.load_factor for instant in last.instants]
+    assert factors == sorted(factors)

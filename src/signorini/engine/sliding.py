@@ -23,7 +23,7 @@ from signorini.engine.handing_over import Handover, supported, with_pairs
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose
-from signorini.engine.step_parts import FollowedPart, StepPart, ending, joined, keep, reached
+from signorini.engine.step_parts import FollowedPart, StepPart, at_once, ending, joined, keep, reached
 from signorini.engine.stride_pairs import Pairing, paired, stride_of, wearing_at
 from signorini.engine.stride_plan import StridePlan
 from signorini.engine.turning import first_share, refuse_turned, with_turned_loads
@@ -45,6 +45,7 @@ _AGAIN = 3  # times in a row at most that is done: where pairs begin to slip wha
 _GROWTH = 2.0  # of a stride over the one before it, in load
 _SHORTER = 8.0  # times: a stride that is lost is tried again
 _SHORTEST_SHARE = 1e-6  # of the rest of a part: below it no stride that is lost is tried again
+_WAY_AT_ONCE = 2.0**-10  # of a step: what strides at constant loads are followed along
 _SAID_FROM = 1e-12  # of the largest force: what may fade away and no one need know
 
 FOLLOWED = "pairs followed the bodies in"
@@ -261,6 +262,20 @@ def follow_sliding(
     SolveFailed
         What ended a stride, with all strides before it.
     """
+    if part.interval.high > part.interval.low:
+        return _in_strides(part, follow, lost, strides)
+    # at constant loads, too, strides tell where they are by their interval
+    way = replace(part, interval=replace(part.interval, low=part.interval.high - _WAY_AT_ONCE))
+    try:
+        return at_once(_in_strides(way, follow, lost, strides), part.interval)
+    except (SolveFailed, Interrupted) as stop:
+        found = reached(stop)
+        stop.reached = None if found is None else at_once(found, part.interval)
+        raise
+
+
+def _in_strides(part: StepPart, follow: Follow, lost: Array | None, strides: list[Stride] | None) -> FollowedPart:
+    """As `follow_sliding`, of a part whose interval has a length."""
     none = np.zeros(0 if part.before.wear is None else len(part.before.wear.depth))
     limit = stride_of(part.prepared)
     walk = _Walk(part=part, follow=follow, limit=limit, lost=none if lost is None else lost)

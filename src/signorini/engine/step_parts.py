@@ -300,6 +300,13 @@ def ending(followed: FollowedPart, after: State) -> FollowedPart:
     return replace(followed, after=after, snapshots=(*shots, replace(last, state=after)))
 
 
+def at_once(followed: FollowedPart, interval: Interval) -> FollowedPart:
+    """What was followed at constant loads, all of it at the end of an interval."""
+    shots = tuple(replace(shot, fraction=interval.high) for shot in followed.snapshots)
+    events = tuple(replace(event, load_factor=interval.factor(1.0)) for event in followed.events)
+    return replace(followed, snapshots=shots, events=events)
+
+
 def keep(stop: SolveFailed | KeyboardInterrupt, behind: Sequence[FollowedPart]) -> SolveFailed | KeyboardInterrupt:
     """What stopped a step, with what was followed before: ``behind``, and what it already carries."""
     last = reached(stop)
