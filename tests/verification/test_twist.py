@@ -240,3 +240,23 @@ def test_a_fit_whose_hub_yields_still_holds_by_its_circle():
     assert found.yielding.share > 0.3
     assert np.hypot(torque / 10.0, pull) == pytest.approx(0.2 * float(fit.pressure @ fit.area), rel=1e-3)
     assert found.certificate.passed
+
+
+def test_contacts_that_share_a_corner_share_its_force_in_one_way():
+    """What a floor and a wall bear is the same in few increments as in many, as without twist."""
+    found = []
+    for count in (2, 8):
+        model = sg.Model(
+            sg.rectangle(width=5.0, height=5.0, nx=2, ny=2, origin=(5.0, 0.0)),
+            kind=TWIST,
+            bodies=[sg.Body("block", STEEL)],
+            supports=[sg.Support("top", u=(None, -0.01, "0.001*x"), name="top")],
+            contacts=[
+                sg.Contact("bottom", sg.Plane((0.0, 0.0), (0.0, 1.0)), friction=0.3, name="floor"),
+                sg.Contact("right", sg.Plane((10.0, 0.0), (-1.0, 0.0)), friction=0.3, name="wall"),
+            ],
+            steps=[sg.Step(increments=count)],
+        )
+        found.append(sg.solve(model).last.contacts)
+    for one, other in zip(*found, strict=True):
+        np.testing.assert_allclose(other.pressure, one.pressure, atol=1e-3 * one.pressure.max())

@@ -316,7 +316,7 @@ def _of_shared_nodes(space: Space, model: Model, node: IntArray, rubs: BoolArray
     determined, which no path of states can follow. With so little compliance that displacements do not feel it they
     share it in one way.
     """
-    if space.components == 3 or not len(node):
+    if space.dimension == 3 or not len(node):
         return np.zeros(len(node))
     shared = np.bincount(node)[node] > 1
     size = float(extent(space.mesh.points).max())
