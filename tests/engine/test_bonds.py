@@ -202,3 +202,41 @@ def test_a_cube_is_torn_off_in_space():
     rubbing = replace(model, contacts=[replace(model.contacts[0], friction=0.3)])
     with pytest.raises(sg.InputError, match=r"contact\[0\].friction: turns between events"):
         sg.solve(rubbing)
+
+
+def lap(bond):
+    """A block on a plane, drawn along it by its top."""
+    return sg.Model(
+        sg.rectangle(width=2.0, height=1.0, nx=4, ny=2),
+        kind="plane stress",
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.0))],
+        supports=[sg.Support("top", u=(0.01, 0.0), name="slide")],
+        contacts=[sg.Contact("bottom", sg.Plane((0, 0), (0, 1)), cohesion=bond, friction=0.2)],
+        steps=[sg.Step()],
+    )
+
+
+def test_forces_along_the_sides_break_bonds_that_let_go_at_once_and_end_other_histories():
+    elastic = sg.solve(lap(sg.Cohesion(1e3))).steps[0].contacts[0]
+    reached = 2.0 / np.abs(elastic.traction).max()
+    step = sg.solve(lap(sg.Cohesion(1e3, shear_strength=2.0))).steps[0]
+    assert (step.contacts[0].damage > 0).any()
+    first = next(event for event in step.events if event.what == "breaks")
+    assert first.load_factor == pytest.approx(reached, rel=1e-9)
+    assert np.abs(step.contacts[0].traction[step.contacts[0].damage == 0.0]).max(initial=0.0) <= 2.0 + 1e-9
+    assert abs(step.energy_defect) < 1e-14
+    with pytest.raises(sg.SolveFailed, match="bears no more along the sides") as caught:
+        sg.solve(lap(sg.Cohesion(1e3, opening=0.1, shear_strength=2.0)))
+    assert caught.value.solution.steps[0].load_factor == pytest.approx(reached, rel=1e-9)
+
+
+def test_a_deck_says_it_and_an_archive_keeps_it(tmp_path):
+    model = replace(
+        cantilever(sg.Cohesion.by_energy(10.0, energy=0.03, shear="free"), lift=0.05, cells=16), title="arm"
+    )
+    solution = sg.solve(model)
+    solution.write(tmp_path / "arm.h5")
+    again = sg.load(tmp_path / "arm.h5")
+    assert again.model.contacts[0].cohesion == model.contacts[0].cohesion
+    assert np.array_equal(again.steps[0].contacts[0].damage, solution.steps[0].contacts[0].damage)
+    assert (again.steps[0].contacts[0].damage > 0.0).any()

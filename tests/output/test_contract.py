@@ -81,6 +81,7 @@ class Results:
         rows = list(csv.DictReader(text.splitlines()))
         self.values = {name: np.array([float(row[name]) for row in rows]) for name in NUMBERS}
         self.contact = np.array([row["contact"] for row in rows])
+        self.damage = np.array([float(row.get("damage", "nan")) for row in rows])
         self.status = np.array([row["status"] for row in rows])
         self.fields = meshio.read(folder / "solution.vtu")
 
@@ -155,7 +156,8 @@ def test_energy_is_accounted_for(results: tuple[Results, dict[str, Any]]) -> Non
 def test_rows_obey_the_law_of_contact(results: tuple[Results, dict[str, Any]]) -> None:
     found, deck = results
     wears = any("wear" in contact for contact in deck["contact"])
-    assert found.header == COLUMNS + (",depth,mortar_depth" if wears else "")
+    glued = {contact["name"]: contact["cohesion"] for contact in deck["contact"] if "cohesion" in contact}
+    assert found.header == COLUMNS + (",depth,mortar_depth" if wears else "") + (",damage" if glued else "")
     value = found.values
     assert all(np.isfinite(column).all() for column in value.values())
     assert sorted(set(value["step"])) == list(range(1, len(found.summary["steps"]) + 1))
@@ -175,9 +177,10 @@ def test_rows_obey_the_law_of_contact(results: tuple[Results, dict[str, Any]]) -
     assert (found.status[tied] == "stick").all()
     p, t, peak = value["pressure"], np.hypot(value["traction_1"], value["traction_2"]), value["pressure"].max()
     size = max(np.abs(value[axis]).max() for axis in "xy")
-    assert p[~tied].min() >= -1e-9 * peak
+    bonded = np.isin(found.contact, list(glued))
+    assert p[~tied & ~bonded].min(initial=0.0) >= -1e-9 * peak
     supple = np.array([closures[name][0] is not None for name in found.contact])
-    assert np.abs(value["gap"] * p)[~supple].max(initial=0.0) <= 1e-9 * peak * size
+    assert np.abs(value["gap"] * p)[~supple & ~bonded].max(initial=0.0) <= 1e-9 * peak * size
     assert value["gap"][~supple].min(initial=0.0) >= -1e-9 * size
     for name, (points, keeps) in closures.items():
         own = (found.contact == name) & (p > 0)
@@ -185,7 +188,13 @@ def test_rows_obey_the_law_of_contact(results: tuple[Results, dict[str, Any]]) -
         assert (-value["gap"][own] >= closed - 1e-9 * size).all() if points else True
         assert keeps or not points or (-value["gap"][own] <= closed + 1e-9 * size).all()
     assert (t <= mu * p + 1e-9 * peak)[~tied].all()
-    assert not p[found.status == "open"].any()
+    assert not p[(found.status == "open") & ~bonded].any()
+    for name, bond in glued.items():  # on the line of the damage, which is the largest opening over that of no tension
+        own, opening = (found.contact == name) & (found.status == "open"), 2.0 * bond["energy"] / bond["strength"]
+        damage = found.damage[own]
+        tension = bond["strength"] * (1.0 - damage) / damage * value["gap"][own] / opening
+        assert np.abs(p[own] + tension).max() <= 1e-8 * bond["strength"]
+        assert p[found.contact == name].min() >= -(1.0 + 1e-9) * bond["strength"]
     slips = (found.status == "slip") & (mu > 0)
     assert np.abs(t - mu * p)[slips].max(initial=0.0) <= 1e-9 * peak
 

@@ -41,7 +41,7 @@ def refuse_beside_bonds(model: Model) -> None:
             raise InputError(f"is given, but {words}", where=("contact", first, "cohesion"))
     for i, contact in enumerate(model.contacts):
         rubs = contact.friction not in (0.0, "stick", "tied")
-        if not contact.law.straight or (model.dimension == 3 and rubs and not contact.facets):
+        if not contact.law.straight or ((model.dimension == 3 or model.twists) and rubs and not contact.facets):
             words = "turns between events, and bonds are followed exactly; expected facets, or straight branches"
             raise InputError(words, where=("contact", i, "friction"))
     for i, step in enumerate(model.steps):

@@ -61,17 +61,24 @@ class Cohesion:
             object.__setattr__(self, "shear_strength", number(self.shear_strength, ("shear_strength",), above=0.0))
 
     @classmethod
-    def by_energy(cls, strength: float, *, energy: float, **others: Any) -> Self:
+    def by_energy(
+        cls,
+        strength: float,
+        *,
+        energy: float,
+        shear: Literal["held", "free"] = "held",
+        shear_strength: float | None = None,
+    ) -> Self:
         """A bond by the energy per area, > 0, that it takes to open it for good: half of strength times opening.
 
         Parameters
         ----------
         strength : the most tension, force per area
         energy : per area
-        others : as of the bond itself
+        shear, shear_strength : as of the bond itself
         """
         most = number(strength, ("strength",), above=0.0)
-        return cls(most, 2.0 * number(energy, ("energy",), above=0.0) / most, **others)
+        return cls(most, 2.0 * number(energy, ("energy",), above=0.0) / most, shear, shear_strength)
 
     @property
     def energy(self) -> float:
