@@ -141,7 +141,7 @@ window.addEventListener("load", () => setTimeout(() => {
     found.told = figure.querySelector("output").textContent;
     if (slider) {
       slider.value = 0; slider.dispatchEvent(new Event("input"));
-      found.hidden = [...figure.querySelectorAll(".group")].map((group) => group.hasAttribute("hidden"));
+      found.hidden = [...figure.querySelectorAll(".group")].map((group) => getComputedStyle(group).display === "none");
     }
   }
   const canvas = document.querySelector("canvas");

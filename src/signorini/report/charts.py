@@ -73,9 +73,8 @@ def chart(data: ChartData) -> str:
             f'<input type="range" min="0" max="{last}" value="{last}" aria-label="step"></label>'
         )
     shown = list(data.groups.values())[-1]
-    legend = "".join(
-        f'<span><i class="c{line.colour}{" dashed" * line.dashed}"></i>{said(line.name)}</span>' for line in shown
-    )
+    named = {line.name: f'<i class="c{line.colour}{" dashed" * line.dashed}"></i>' for line in shown}
+    legend = "".join(f"<span>{look}{said(name)}</span>" for name, look in named.items())
     return (
         f'<figure class="chart"><figcaption>{said(data.title)}{slider}</figcaption>'
         f'<svg viewBox="{box}" role="img" tabindex="0" aria-label="{said(words)}">'
