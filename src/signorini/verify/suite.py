@@ -102,6 +102,7 @@ QUICK: tuple[Case, ...] = (
     fatigue.trailing_edge,
     vibration.frequencies,
     vibration.bar_in_bed,
+    vibration.waves_around_a_ring,
     closures.block_on_a_gasket,
     closures.gasket_in_a_cycle,
     closures.rough_interface,

@@ -9,7 +9,9 @@ from typing import Literal
 import numpy as np
 
 from signorini.api import solve
+from signorini.gallery.sectors import SECTORS, ring_on_shaft
 from signorini.gallery.vibrating import bar_in_a_bed, plane_bar, thin_disc
+from signorini.model.modes import SLIPPING, STUCK
 from signorini.reference.vibration import bar_frequencies, disc_frequencies, free_beam_frequencies
 from signorini.verify.check import Check, checks_of, farthest
 from signorini.vibration.damping import joint_damping
@@ -17,6 +19,7 @@ from signorini.vibration.modes import natural_modes
 
 _SPEED = 10.0  # of waves along the bars of the gallery
 _NU = 0.3  # of the disc
+_WAVES = 20  # modes of the ring: six of a sector for every number of waves are more
 
 
 def frequencies() -> Iterator[Check]:
@@ -50,6 +53,20 @@ def frequencies() -> Iterator[Check]:
         ("order in h of the frequency, quadratic cells", rates[1], 4.0, 0.1),
         source="Love 1927, section 201",
     )
+
+
+def waves_around_a_ring() -> Iterator[Check]:
+    """A ring on a shaft as it is drawn, and the waves of one of its sectors, whose sides cut the joint."""
+    whole, sector = (ring_on_shaft(whole=every) for every in (True, False))
+    for joint in (STUCK, SLIPPING):
+        exact = natural_modes(whole, _WAVES, joint=joint).squares
+        found = [natural_modes(sector, 6, joint=joint, nodal_diameters=h).squares for h in range(SECTORS // 2 + 1)]
+        both = np.sort(np.concatenate([found[0], *(np.repeat(one, 2) for one in found[1:-1]), found[-1]]))[:_WAVES]
+        yield from checks_of(
+            f"B18 waves around a ring, {joint} joint",
+            (f"omega^2 of {_WAVES} modes, of the largest", np.abs(both - exact).max() / exact[-1], 0.0, 1e-9),
+            source="the whole ring",
+        )
 
 
 def bar_in_bed() -> Iterator[Check]:
