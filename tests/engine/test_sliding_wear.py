@@ -14,35 +14,22 @@ import pytest
 import signorini as sg
 from signorini.engine import wear_steps
 from signorini.gallery.sliding import driven_wheel
-from signorini.gallery.wearing import FRICTION, fretting, rubbed_cylinder, to_and_fro
+from signorini.gallery.wearing import FRICTION, block_in_space, fretting, rubbed_cylinder, to_and_fro
 
 STEEL = sg.Elastic(E=200.0, nu=0.3)
 WEAR = sg.Wear(1e-3, mortar=2e-3)
 
 
-def block_on_bed(kind: str = "plane strain", *, stroke: float = 0.2, E: float = 200.0) -> sg.Model:
-    """A block of length 1 that is pressed by 1 on a bed from -0.5 to 2 and driven along it; in space 0.4 wide."""
-    aside = (0.0,) if kind == "3d" else ()
-    if kind == "3d":
-        short, long, across = np.linspace(0.0, 1.0, 3), np.linspace(-0.5, 1.5, 5), np.array([0.0, 0.4])
-        top = sg.box(x=short, y=across, z=np.array([0.0, 0.5]))
-        bed = sg.box(x=long, y=across, z=np.array([-0.5, 0.0]))
-    else:
-        low, high = np.linspace(-0.5, 0.0, 3), np.linspace(0.0, 0.5, 3)
-        top = sg.rectangle(x=np.linspace(0.0, 1.0, 4), y=high)
-        bed = sg.rectangle(x=np.linspace(-0.5, 2.0, 10), y=low)
-    material = sg.Elastic(E=E, nu=0.3)
+def block_on_bed(*, stroke: float = 0.2) -> sg.Model:
+    """A block of length 1 that is pressed by 1 on a bed from -0.5 to 2 and driven along it."""
+    top = sg.rectangle(x=np.linspace(0.0, 1.0, 4), y=np.linspace(0.0, 0.5, 3))
+    bed = sg.rectangle(x=np.linspace(-0.5, 2.0, 10), y=np.linspace(-0.5, 0.0, 3))
     return sg.Model(
         mesh=sg.join({"top": top, "bed": bed}),
-        kind=kind,
-        bodies=[sg.Body("top", material), sg.Body("bed", material)],
-        supports=[
-            sg.Support("bed.bottom", u=(0.0, *aside, 0.0)),
-            sg.Support("top.top", u=(stroke, *aside, None), name="drive"),
-        ],
-        loads=[
-            sg.Load("top.top", force=(None, *[None for _ in aside], -1.0), spread="displacement", name="press"),
-        ],
+        kind="plane strain",
+        bodies=[sg.Body("top", STEEL), sg.Body("bed", STEEL)],
+        supports=[sg.Support("bed.bottom", u=(0.0, 0.0)), sg.Support("top.top", u=(stroke, None), name="drive")],
+        loads=[sg.Load("top.top", force=(None, -1.0), spread="displacement", name="press")],
         contacts=[sg.Contact("top.bottom", "bed.top", friction=0.3, sliding="finite", wear=WEAR, name="sole")],
         steps=to_and_fro(1),
     )
@@ -82,7 +69,7 @@ def rubbed(solution: sg.Solution, friction: float) -> float:
     [
         (rubbed_block, 0.3, 1e-12),
         (lambda: sg.solve(hub_on_shaft()), 0.2, 1e-4),
-        (lambda: sg.solve(block_on_bed("3d", stroke=0.05)), 0.3, 1e-4),
+        (lambda: sg.solve(block_in_space(to_and_fro(1), wear=WEAR, stroke=0.05, modulus=200.0)), 0.3, 1e-4),
     ],
     ids=["plane", "axisymmetric", "space"],
 )
@@ -183,11 +170,10 @@ def test_cycles_of_a_block_in_space_recur_and_go_in_blocks(monkeypatch: pytest.M
     cycles, stroke, k, whole = 4, 0.05, 1e-6, list[int]()
     own = wear_steps.follow_sliding
     monkeypatch.setattr(wear_steps, "follow_sliding", lambda *given: whole.append(1) or own(*given))
-    model = block_on_bed("3d", stroke=stroke, E=2e5)
     press = sg.Step(name="press", scale={"press": 1.0, "drive": 0.0})
     rub = sg.Step(name="rub", scale={"press": [1.0, 1.0], "drive": [1.0, 0.0]}, repeat=cycles, block=2)
-    contact = replace(model.contacts[0], wear=sg.Wear(k, mortar=2.0 * k))
-    solution = sg.solve(replace(model, contacts=[contact], steps=[press, rub]))
+    both = sg.Wear(k, mortar=2.0 * k)
+    solution = sg.solve(block_in_space([press, rub], wear=both, stroke=stroke, modulus=2e5))
     assert len(whole) == 2 + 3 * 3
     wear, last = solution.end.state.wear, solution.last
     volume = float(wear.volume.sum() + wear.loose.sum())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contacts that wear: a cylinder that is rubbed on a flat."""
+"""Contacts that wear: a cylinder that is rubbed on a flat, and a block on its bed in space."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from signorini.gallery.large_bodies import graded_lines, with_seat
 from signorini.meshing.plane import half_disk, rectangle
+from signorini.meshing.solid import box
 from signorini.model.body import Body
 from signorini.model.conditions import Load, Support
 from signorini.model.contact import Contact
@@ -103,3 +104,30 @@ def to_and_fro(cycles: int, **options: object) -> list[Step]:
     """
     rub = Step(name="rub", scale={"drive": [1.0, 0.0, -1.0, 0.0]}, repeat=cycles, **options)  # type: ignore[arg-type]
     return [Step(name="press", scale={"press": 1.0}), rub]
+
+
+def block_in_space(steps: Sequence[Step], *, wear: Wear, stroke: float, modulus: float) -> Model:
+    """A block, 1 by 0.4 by 0.5, under a force of 1 ("press") on a bed along which it is driven ("drive"), mu 0.3.
+
+    Parameters
+    ----------
+    steps : the history
+    wear : of block and bed
+    stroke : of the drive
+    modulus : E of both
+    """
+    across, steel = np.array([0.0, 0.4]), Elastic(E=modulus, nu=0.3)
+    top = box(x=np.linspace(0.0, 1.0, 3), y=across, z=np.array([0.0, 0.5]))
+    bed = box(x=np.linspace(-0.5, 1.5, 5), y=across, z=np.array([-0.5, 0.0]))
+    return Model(
+        mesh=join({"top": top, "bed": bed}),
+        kind="3d",
+        bodies=[Body("top", steel), Body("bed", steel)],
+        supports=[
+            Support("bed.bottom", u=(0.0, 0.0, 0.0)),
+            Support("top.top", u=(stroke, 0.0, None), name="drive"),
+        ],
+        loads=[Load("top.top", force=(None, None, -1.0), spread="displacement", name="press")],
+        contacts=[Contact("top.bottom", "bed.top", friction=0.3, sliding="finite", wear=wear, name="sole")],
+        steps=steps,
+    )

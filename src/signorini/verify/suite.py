@@ -138,6 +138,7 @@ SLOW: tuple[Case, ...] = (
     sliding.dissimilar_rollers,
     wear.fretting_over_elements,
     wear.worn_track,
+    wear.worn_block,
 )
 
 

@@ -12,7 +12,7 @@ from signorini.engine.solve import solve
 from signorini.gallery.half_planes import EQUAL, HALF_WIDTH, equal_half_planes
 from signorini.gallery.half_planes import FRICTION as EQUAL_FRICTION
 from signorini.gallery.sliding import driven_wheel, half_width
-from signorini.gallery.wearing import FRICTION, RADIUS, WEAR, fretting, rubbed_cylinder, to_and_fro
+from signorini.gallery.wearing import FRICTION, RADIUS, WEAR, block_in_space, fretting, rubbed_cylinder, to_and_fro
 from signorini.model.conditions import Support
 from signorini.model.step import Step
 from signorini.model.wear import Wear
@@ -112,6 +112,27 @@ def worn_track() -> Iterator[Check]:
         ("shallowest in the middle / k P xi", middle.min() / (coefficient * force * creepage), 1.0, 0.01),
         ("deepest", middle.max() / (coefficient * force * creepage), 1.0, 0.01),
         source="int p ds = xi P",
+    )
+
+
+def worn_block() -> Iterator[Check]:
+    """A block in space that hardly strains, pushed over its bed ten times to and fro, in blocks of five cycles."""
+    rate, stroke, cycles = 1e-6, 0.05, 10
+    press = Step(name="press", scale={"press": 1.0, "drive": 0.0})
+    rub = Step(name="rub", scale={"press": [1.0, 1.0], "drive": [1.0, 0.0]}, repeat=cycles, block=5)
+    both = Wear(rate, mortar=2.0 * rate)
+    history = solve(block_in_space([press, rub], wear=both, stroke=stroke, modulus=2e5))
+    step, state = history.steps[-1], history.end.state if history.end else None
+    assert state is not None
+    assert state.wear is not None
+    worn = float(state.wear.volume.sum() + state.wear.loose.sum())
+    rubbed = sum(step.dissipation for step in history.steps) / 0.3  # all that slides is at mu p
+    yield from checks_of(
+        "a block slides on its bed in space, blocks of five cycles",
+        ("worn volume / k P s, all of the stroke", worn / (3.0 * rate * 2.0 * stroke * cycles), 1.0, 4e-4),
+        ("worn volume / k int p ds", worn / (3.0 * rate * rubbed), 1.0, 1e-4),
+        ("energy defect / work", step.energy_defect / step.work, 0.0, 1e-4, "first law"),
+        source="Archard (1953)",
     )
 
 
