@@ -149,7 +149,7 @@ def test_a_history_goes_on_from_a_file_and_not_with_another_closure(tmp_path):
 
 
 def test_bodies_that_yield_on_a_bed():
-    model = block_on_a_bed(SLANTED, steps=[sg.Step(scale={"p": 1.0}, increments=4)])
+    model = block_on_a_bed(SLANTED, cells=4, steps=[sg.Step(scale={"p": 1.0}, increments=2)])
     soft = sg.Elastic(E=1000.0, nu=0.0, plastic=sg.Plastic(12.0, hardening=100.0))
     step = sg.solve(replace(model, bodies=[sg.Body("block", soft)])).steps[0]
     assert step.yielding.share > 0.05
@@ -206,7 +206,7 @@ def test_gaskets_with_friction_are_followed_exactly_where_nothing_is_asked_and_a
     model = block_on_a_bed(SLANTED, KEPT, friction=0.2, cells=5, steps=[sg.Step(scale=way) for way in ways])
     exact = sg.solve(model)
     fine = sg.solve(replace(model, steps=[sg.Step(scale=way, increments=40) for way in ways]))
-    coarse = replace(model, steps=[sg.Step(scale=way, increments=2) for way in ways])
+    coarse = replace(model, steps=[sg.Step(scale=way, increments=1) for way in ways])
     for one, two, three, four in zip(
         exact.steps, fine.steps, sg.solve(coarse).steps, sg.solve(coarse, backend="iterative").steps, strict=True
     ):
@@ -240,3 +240,33 @@ def test_energies_of_nodes_that_files_have_add_up_to_that_of_the_interface(closu
     for step in sg.solve(block_on_a_bed(SLANTED, closure, cells=4, steps=steps)).steps:
         contact = sg.Contact("bottom", "top", closure=closure)
         assert slave_energies(contact, step.contacts[0]).sum() == pytest.approx(step.interface_energy, rel=1e-12)
+
+
+@pytest.mark.parametrize("given", [{"closure": GASKET}, {"cohesion": sg.Cohesion(5.0, opening=0.02)}])
+def test_what_lies_between_sides_goes_with_ties_beside_it(given):
+    """A block in one piece, and of two that are tied."""
+
+    def pressures(mesh, names, tied):
+        return sg.solve(
+            sg.Model(
+                mesh,
+                kind="plane strain",
+                bodies=[sg.Body(name, sg.Elastic(E=1000.0, nu=0.3)) for name in names],
+                supports=[sg.Support("upper.top" if tied else "top", u=(0, -0.012 if "closure" in given else 0.012))],
+                contacts=[
+                    *tied,
+                    sg.Contact("lower.bottom" if tied else "bottom", sg.Plane((0, 0), (0, 1)), friction=0.2, **given),
+                ],
+                steps=[sg.Step(path="exact")],
+            )
+        ).steps[0]
+
+    whole = pressures(sg.rectangle(width=2.0, height=1.0, nx=4, ny=4), ["block"], [])
+    halves = {
+        name: sg.rectangle(width=2.0, height=0.5, nx=4, ny=2, origin=(0, at))
+        for name, at in (("lower", 0), ("upper", 0.5))
+    }
+    tie = sg.Contact("upper.bottom", "lower.top", friction="tied")
+    parts = pressures(sg.join(halves), list(halves), [tie])
+    assert np.abs(whole.contacts[-1].pressure).min() > 1.0
+    assert_allclose(parts.contacts[-1].pressure, whole.contacts[-1].pressure, rtol=1e-11)
