@@ -134,6 +134,19 @@ def test_a_torque_on_the_hub(tmp_path: Path) -> None:
     assert sum(force[2] for force in held) == pytest.approx(-2e4, rel=1e-9)
 
 
+@pytest.mark.parametrize("kind", ["CGAX4", "CAX4"])
+def test_files_of_bodies_that_yield_beside_a_node_of_no_cell(tmp_path: Path, kind: str) -> None:
+    """The reference node of a hub belongs to no cell: fields of flow are written nevertheless."""
+    text = FIT.format("*BOUNDARY\n99, 2, 2, .02").replace("210e3, .3\n", "210e3, .3\n*PLASTIC\n40., 0.\n400., .1\n")
+    if kind == "CAX4":
+        for line in ("12, 5\n", "13, 5\n", "99, 5\n"):
+            text = text.replace(line, "")
+    solution = sg.solve(read(tmp_path, text.replace("CGAX4R", kind).replace("CGAX4", kind)))
+    assert solution.last.yielding.largest > 0.0
+    solution.write(tmp_path / "flow.vtu")
+    assert (tmp_path / "flow.vtu").is_file()
+
+
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
