@@ -57,7 +57,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
 
         return call
 
-    for name in ("make_space", "body_stresses", "point_stresses"):
+    for name in ("space_of", "body_stresses", "point_stresses"):
         monkeypatch.setattr(fields, name, counted(name))
     return found
 
@@ -78,7 +78,7 @@ def test_a_run_makes_one_space_and_the_stresses_of_every_step_once(
     assert main(["run", str(deck_of(tmp_path)), "-o", str(out), "--quiet"]) == 0
     names = {file.name for file in out.iterdir()}
     assert names >= {"solution.vtu", "solution_0003.vtu", "solution.pvd", "solution.frd", "solution.dat"}
-    assert calls == {"make_space": 1, "body_stresses": 3, "point_stresses": 3}
+    assert calls == {"space_of": 1, "body_stresses": 3, "point_stresses": 3}
 
 
 def test_stresses_are_kept_where_several_files_need_them_and_of_the_last_state(

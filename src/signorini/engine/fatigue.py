@@ -14,9 +14,9 @@ from signorini.engine.stress_history import Span, spans, stress_history
 from signorini.errors import InputError
 from signorini.fatigue.criteria import Ruiz, StrainLife
 from signorini.fatigue.damage import Damage, cycles_to_failure, damage, largest_product, path_amplitudes
-from signorini.fem.links import linked_nodes
 from signorini.fem.probe import StressProbe
-from signorini.fem.space import Space, make_space
+from signorini.fem.space import Space
+from signorini.fem.stress import space_of
 from signorini.model.fatigue import Fatigue
 from signorini.model.model import Model
 from signorini.solution.fatigue_result import FatigueResult
@@ -28,7 +28,7 @@ from signorini.solution.stress_history import StressHistory
 def with_fatigue(history: History) -> History:
     """A history with what the criteria say that its model asks for; a note where one cannot be answered."""
     model = history.model
-    space = make_space(model.mesh, kind=model.kind, linked=linked_nodes(model))
+    space = space_of(model)
     found, notes = [], []
     for i, request in enumerate(model.fatigue):
         try:
@@ -54,7 +54,7 @@ def assess_fatigue(history: History, request: Fatigue, space: Space | None = Non
         For unknown names, and where displacements on the way were not kept and do not follow from what was.
     """
     model = history.model
-    space = space or make_space(model.mesh, kind=model.kind, linked=linked_nodes(model))
+    space = space or space_of(model)
     steps = tuple(request.steps)
     if isinstance(request.criterion, Ruiz):
         probe, points, tangents = _on_contacts(space, model, request, history)

@@ -11,7 +11,8 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.fem.elasticity import elasticities, elasticity
 from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, mean_in_cells
-from signorini.fem.space import Space
+from signorini.fem.links import linked_nodes
+from signorini.fem.space import Space, make_space
 from signorini.fem.thermal import temperatures, thermal_strain
 from signorini.fem.turning_bodies import in_frames
 from signorini.model.model import Model
@@ -128,6 +129,11 @@ class DeformedBodies:
         tensors = np.zeros((*found.shape[:-1], 6))
         tensors[..., : found.shape[-1]] = found
         return tensors if self.turns is None else turned(tensors, self.turns[nodes])
+
+
+def space_of(model: Model) -> Space:
+    """The displacement space of the bodies of a model, without its obstacles; nodes of no cell may be named."""
+    return make_space(model.mesh, kind=model.kind, linked=linked_nodes(model) if model.couples else None)
 
 
 def body_stresses(

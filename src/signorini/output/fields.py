@@ -10,9 +10,16 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.fem.links import linked_nodes
-from signorini.fem.space import Space, make_space
-from signorini.fem.stress import BodyStress, DeformedBodies, body_stresses, point_strains, point_stresses, von_mises
+from signorini.fem.space import Space
+from signorini.fem.stress import (
+    BodyStress,
+    DeformedBodies,
+    body_stresses,
+    point_strains,
+    point_stresses,
+    space_of,
+    von_mises,
+)
 from signorini.model.model import Model
 from signorini.plasticity.fields import PlasticFields, by_family, joined, mean_fields, nodal_fields, point_fields
 from signorini.solution.results import Instant, StepResult
@@ -75,7 +82,7 @@ class Fields:
     @cached_property
     def space(self) -> Space:
         """The displacement space of the model's mesh."""
-        return make_space(self.model.mesh, kind=self.model.kind, linked=linked_nodes(self.model))
+        return space_of(self.model)
 
     def on(self, state: State) -> tuple[Space, Model]:
         """The space and the model on the mesh of a state, which may have moved with what is worn; the last is kept."""
@@ -83,8 +90,7 @@ class Fields:
             return self.space, self.model
         if self._moved is None or self._moved[0] is not state.places:
             model = replace(self.model, mesh=replace(self.model.mesh, points=state.places))
-            space = make_space(model.mesh, kind=model.kind, linked=linked_nodes(model))
-            self._moved = state.places, model, space
+            self._moved = state.places, model, space_of(model)
         return self._moved[2], self._moved[1]
 
     def stresses(self, state: State) -> list[BodyStress]:
