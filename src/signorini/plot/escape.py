@@ -3,17 +3,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, BoolArray
 from signorini.errors import InputError
 from signorini.plot.camera import best_view
 from signorini.plot.oblique import HOOP_WORDS, oblique
 from signorini.plot.paint import body_paint, paint_skin
 from signorini.plot.skin import make_skin
-from signorini.plot.style import INK, PRESSURE, TRACTION, frame
+from signorini.plot.style import INK, PRESSURE, TRACTION, frame, legend_below
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
@@ -34,6 +35,8 @@ def plot_escape(history: History) -> Figure:
         If the history has no such motion.
     """
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
 
     if history.escape is None:
         raise InputError("no body runs away in this history; there is nothing to draw")
@@ -52,9 +55,23 @@ def plot_escape(history: History) -> Figure:
         *flat[chosen].T, *along[chosen].T, angles="xy", scale_units="xy", scale=1.0, color=INK, width=0.004, zorder=4
     )
     around = f"\n{HOOP_WORDS}" if history.model.twists else ""
-    title = f"no equilibrium: the loads carry the bodies away{around}"
+    names = ", ".join(f"'{name}'" for name in _running(history, np.linalg.norm(motion, axis=1) > 1e-6 * size))
+    title = f"no equilibrium: the loads carry {names} away{around}"
     axes.set_title(title, loc="left", fontsize=11, color=INK)
+    plane = history.model.dimension == 2
+    looks = (("where they are", PRESSURE if plane else _STAYS), ("where they go", TRACTION if plane else _RUNS))
+    arrow = Line2D([], [], color=INK, marker=">", ls="-", label="the motion, whatever its size")
+    legend_below(figure, [*(Patch(color=colour, label=words) for words, colour in looks), arrow])
     return figure
+
+
+def _running(history: History, moves: BoolArray) -> Iterator[str]:
+    """Names of bodies some of whose nodes are among those that move, (n,)."""
+    model = history.model
+    owner = model.mesh.by_family(model.body_of_cells())
+    for number, body in enumerate(model.bodies):
+        if any(moves[cells[own == number]].any() for cells, own in zip(model.mesh.cells.values(), owner, strict=True)):
+            yield body.name
 
 
 def _plane(axes: Axes, history: History, points: Array, motion: Array) -> tuple[Array, Array]:
