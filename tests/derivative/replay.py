@@ -46,12 +46,11 @@ def replayed(points, A, R, ends, mu):
 
 def condition(point, mu):
     """The pair whose event ends a piece, and what vanishes there, from how its state changes."""
-    n, known = len(mu), point.conditions
-    i = point.event
-    pair = known.pair[i]
-    if known.gap[i]:
+    n, event = len(mu), point.event
+    pair = event.pair
+    if event.gap:
         return pair, lambda h, _, k: h[k]
-    if not known.friction[i]:
+    if not event.friction:
         return pair, lambda _, r, k: r[k]
-    sign = -known.friction[i]
+    sign = -event.friction
     return pair, lambda _, r, k: mu[k] * r[k] - sign * r[n + k]

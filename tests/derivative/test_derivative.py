@@ -224,7 +224,7 @@ def test_at_an_event_a_derivative_has_two_sides(ending_at_an_event, parameter):
 def test_grazing_is_refused(solved):
     _, solution, _ = solved
     point = next(point for point in solution._taped.view.points if point.at_event)
-    pair = point.conditions.pair[point.event]
+    pair = point.event.pair
     slow = point.h_rate.copy()
     slow[0, pair] *= 1e-12
     grazing = replace(point, h_rate=slow)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -12,7 +11,6 @@ from signorini.arrays import Array
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import BoundTerm
-from signorini.engine.increments import moved_by_supports
 from signorini.law.bound import FrictionBound
 from signorini.law.friction import PairFriction
 
@@ -104,37 +102,11 @@ class LoadChange:
 
     def moved(self, point: TapePoint) -> tuple[Array, Array]:
         """Motions of the pairs and resultants, at the load factor of the point."""
-        factor = point.load.factors.get(self.name, 0.0)
-        motion, resultant = self._unit(point.system)
-        return factor * motion, factor * resultant
+        factor, response = point.load.factors.get(self.name, 0.0), point.system.condensed.response
+        unit = point.system.unit(self.name)
+        motion = response.moved(unit.load).reshape(unit.offset.shape) + unit.offset
+        return factor * motion, factor * response.resultant(unit.load)
 
     def bound(self, system: InterfaceSystem) -> None:  # noqa: ARG002
         """The friction stays."""
         return
-
-    @cached_property
-    def _known(self) -> dict[InterfaceSystem, tuple[Array, Array]]:
-        return {}
-
-    def _unit(self, system: InterfaceSystem) -> tuple[Array, Array]:
-        """Motions of the pairs and resultants of the load at factor 1, once for every system."""
-        if system not in self._known:
-            prepared, condensed = system.prepared, system.condensed
-            f, offset = imposed_by(system, self.name)
-            load = condensed.reduce(prepared.constraints.on_free(f)).load
-            moved = condensed.response.moved(load).reshape(offset.shape) + offset
-            self._known[system] = moved, condensed.response.resultant(load)
-        return self._known[system]
-
-
-def imposed_by(system: InterfaceSystem, name: str) -> tuple[Array, Array]:
-    """Nodal forces (dofs,) and motions of the active pairs (d, a) of a load or a moving support at factor 1."""
-    prepared = system.prepared
-    none = np.zeros((system.directions, system.pairs))
-    f = np.zeros(prepared.space.number_of_dofs)
-    if name in prepared.loads:
-        f += prepared.loads[name]
-    if name in prepared.constraints.prescribed:
-        u = prepared.constraints.prescribed[name]
-        return f - prepared.K @ u, moved_by_supports(prepared, u)[:, system.active]
-    return f, none

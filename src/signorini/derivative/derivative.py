@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array, IntArray
 from signorini.derivative.adjoint import adjoint_of
 from signorini.derivative.body_changes import BodyChange
-from signorini.derivative.changes import LoadChange, imposed_by
+from signorini.derivative.changes import LoadChange
 from signorini.derivative.functionals import value, weights
 from signorini.derivative.moduli import ModulusChange
-from signorini.derivative.outputs import Displacement, Output, Stress
+from signorini.derivative.outputs import Displacement, Output, Stress, WeightedSum
 from signorini.derivative.parameters import change_of, names_of, shape_change
 from signorini.derivative.points import TapePoint, beyond, tape_points
 from signorini.derivative.recursion import Change, PointChange, forward
@@ -77,6 +77,7 @@ class TapedHistory:
     def __init__(self, tape: Tape, model: Model) -> None:
         refuse_tape(tape, model)
         self.view = HistoryView.of(tape_points(tape))
+        self._edged: bool | None = None
         self._changes: dict[tuple[str, str], Change] = {}
         self._forward: dict[tuple[str, str], list[PointChange]] = {}
 
@@ -99,7 +100,9 @@ class TapedHistory:
 
     def edges(self, kind: str, name: str) -> list[PathEdge]:
         """Where a parameter has another derivative to each of its sides."""
-        if not any(on_edge(point) for point in self.view.points):
+        if self._edged is None:
+            self._edged = any(on_edge(point) for point in self.view.points)
+        if not self._edged:
             return []
         return edges(self.view, self.forward(kind, name))
 
@@ -289,14 +292,15 @@ class Derivative:
         for i, y in self._adjoint.pulled.items():
             point = self._history.view.points[i]
             constraints, factor = point.system.prepared.constraints, point.load.factors.get(name, 0.0)
-            found += factor * float(y @ constraints.on_free(imposed_by(point.system, name)[0]))
+            found += factor * float(y @ constraints.on_free(point.system.unit(name).forces))
             if name in constraints.prescribed:
                 found += factor * float(self._pulls[i] @ constraints.prescribed[name])
         return found
 
     def _at_once(self, change: BodyChange | ModulusChange) -> float:
         """What a change of the bodies changes of the output while motions, forces and displacements stay."""
-        if isinstance(self.output, Displacement):
+        untilted = isinstance(change, ModulusChange) and not change.tilts
+        if isinstance(self.output, Displacement) or (untilted and not isinstance(self.output, Stress | WeightedSum)):
             return 0.0
         low, high = change.views(self._history.view)
         return (value(self.output, high) - value(self.output, low)) / (2.0 * change.step)

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
+from signorini.engine.increments import moved_by_supports
 from signorini.engine.prepare import Prepared
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
@@ -46,6 +47,23 @@ class PairStates:
     tangent: Tangent | None = None
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class UnitLoad:
+    """A load or a moving support at factor 1.
+
+    Attributes
+    ----------
+    forces : (dofs,) nodal forces, with those of what a support prescribes
+    offset : (d, a) motions of the active pairs that it prescribes, length
+    load, fixed : condensed, all of it and without what a support prescribes
+    """
+
+    forces: Array
+    offset: Array
+    load: Array
+    fixed: Array
+
+
 class InterfaceSystem:
     """The condensed interface of a prepared model to first order; motions and forces are scaled inside, (d, a).
 
@@ -62,6 +80,7 @@ class InterfaceSystem:
         self.directions, self.pairs = prepared.interface.directions, len(self.active)
         self.motions = self.law.image.R.shape[1]
         self._responses = Responses(self.law) if self.law.piecewise_linear else None
+        self._units: dict[str, UnitLoad] = {}
         self._tangent: tuple[Tangent, LinearSystem] | None = None
 
     def states_of_codes(self, codes: IntArray) -> PairStates:
@@ -91,6 +110,21 @@ class InterfaceSystem:
         unit = np.divide(r[1:], size, out=np.zeros_like(r[1:]), where=slips)
         held = np.broadcast_to(tangent.closed & (tangent.left == self.directions - 1), unit.shape)
         return PairStates(held=held, unit=unit, branch=self.law.pieces.branch(r[0]), tangent=tangent)
+
+    def unit(self, name: str) -> UnitLoad:
+        """A load or a moving support at factor 1, kept."""
+        if name not in self._units:
+            prepared, condensed, K = self.prepared, self.condensed, self.prepared.K
+            none = np.zeros(prepared.space.number_of_dofs)
+            forces = prepared.loads.get(name, none)
+            fixed = load = condensed.reduce(prepared.constraints.on_free(forces)).load
+            offset = np.zeros((self.directions, self.pairs))
+            if name in prepared.constraints.prescribed:
+                u = prepared.constraints.prescribed[name]
+                forces, offset = forces - K @ u, moved_by_supports(prepared, u)[:, self.active]
+                load = condensed.reduce(prepared.constraints.on_free(forces)).load
+            self._units[name] = UnitLoad(forces=forces, offset=offset, load=load, fixed=fixed)
+        return self._units[name]
 
     def imposed(self, h: Array, r: Array) -> Array:
         """(d n + k,) What motions and forces, (d, n), are worth that come on top of what the states allow."""

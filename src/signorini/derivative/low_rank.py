@@ -14,7 +14,6 @@ import numpy as np
 import scipy.linalg
 
 from signorini.arrays import Array
-from signorini.derivative.changes import imposed_by
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import Adjoint, PointTerm
@@ -153,7 +152,7 @@ def _displacement(system: InterfaceSystem, h: Array, r: Array, offset: Array, fa
     f = np.zeros((prepared.space.number_of_dofs, k))
     imposed = np.zeros_like(f)
     for name, factor in factors.items():
-        f += np.outer(imposed_by(system, name)[0], factor)
+        f += np.outer(system.unit(name).forces, factor)
         if name in prepared.constraints.prescribed:
             imposed += np.outer(prepared.constraints.prescribed[name], factor)
     free = condensed.displacement(condensed.reduce(prepared.constraints.on_free(f)), h, r, offset)

@@ -15,13 +15,11 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.condense.response import ByNodes
-from signorini.derivative.changes import imposed_by
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.pair_change import PairChange
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import Adjoint, BoundTerm
 from signorini.derivative.view import HistoryView, displacements
-from signorini.engine.path_states import offsets
 from signorini.engine.prepare import Prepared
 from signorini.fem.supports import make_constraints
 from signorini.interface.interface import make_interface
@@ -94,19 +92,29 @@ class ModulusChange:
 
     def views(self, view: HistoryView) -> tuple[HistoryView, HistoryView]:
         """What outputs are read from at both sides of the modulus, motions and forces as they are."""
-        (low, high), pairs = self._sides, self.pairs
-        return replace(view, model=low, interface=pairs.low), replace(view, model=high, interface=pairs.high)
+        low, high = (replace(view, model=model) for model in self._sides)
+        if self.tilts:
+            return replace(low, interface=self.pairs.low), replace(high, interface=self.pairs.high)
+        return low, high
+
+    @cached_property
+    def tilts(self) -> bool:
+        """Whether it changes any pair: not where only obstacles lie opposite the meshed sides."""
+        model = self.prepared.model
+        obstacles = {obstacle.name for obstacle in model.obstacles}
+        opposite = [contact.mortar for contact in model.contacts]
+        return any(isinstance(side, str) and side not in obstacles for side in opposite) and self.pairs.any
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What areas change of the friction."""
-        return self.pairs.bound(system) if self.pairs.any else None
+        return self.pairs.bound(system) if self.tilts else None
 
     def moved(self, point: TapePoint) -> tuple[Array, Array]:
         """Motions of the pairs and resultants."""
         system = point.system
         response, seen = _response(system), self._contacts(system, [point])
         motion, resultant = self._by_forces(system, seen), np.zeros(system.motions)
-        if self.pairs.any:
+        if self.tilts:
             load = self._on_contact(system, seen.forces)
             moved = response.B @ response.parts.solve(load) + self._by_pairs(system, seen)
             motion, resultant = motion + moved, response.resultant(load[:, 0])
@@ -120,7 +128,7 @@ class ModulusChange:
             motion = np.stack([adjoint.terms[i].motion.ravel() for i in own], axis=-1)
             seen, response = self._contacts(system, [points[i] for i in own]), _response(system)
             found += float(np.vdot(motion, self._by_forces(system, seen)))
-            if self.pairs.any:
+            if self.tilts:
                 resultant = np.stack([adjoint.terms[i].resultant for i in own], axis=-1)
                 w = response.parts.solve(response.B.T @ motion) + response.rigid @ resultant
                 for k, i in enumerate(own):
@@ -184,18 +192,19 @@ class ModulusChange:
         factors = np.array([[point.load.factors.get(name, 0.0) for point in points] for name in names])
         forces = np.stack([(system.root * point.r).ravel() for point in points], axis=-1)
         h = np.stack([(point.h / system.root).ravel() for point in points], axis=-1)
-        offset = np.stack([offsets(prepared, point.load)[:, system.active].ravel() for point in points], axis=-1)
+        gaps = np.stack([point.load.gap[system.active] for point in points], axis=-1)
+        offset = np.concatenate([gaps, np.zeros((len(forces) - len(gaps), len(points)))])
         imposed = np.zeros((prepared.space.number_of_dofs, len(points)))
         loads = np.zeros((2, len(condensed.dofs), len(points)))
         pushed = response.B.T @ forces
         for name, factor in zip(names, factors, strict=True):
+            unit = system.unit(name)
             if name in prepared.constraints.prescribed:
                 imposed += np.outer(prepared.constraints.prescribed[name], factor)
-            whole = condensed.reduce(prepared.constraints.on_free(imposed_by(system, name)[0])).load
-            loads[0] += np.outer(whole, factor)
-            if name in prepared.loads and name not in heats:
-                fixed = condensed.reduce(prepared.constraints.on_free(prepared.loads[name])).load
-                loads[1] += np.outer(fixed, factor)
+                offset += np.outer(unit.offset, factor)
+            loads[0] += np.outer(unit.load, factor)
+            if name not in heats:
+                loads[1] += np.outer(unit.fixed, factor)
         x, from_forces = response.parts.solve(loads[0] + pushed), response.parts.solve(loads[1] + pushed)
         left = h - condensed.compliance.ravel()[:, None] * forces - offset - response.B @ x
         whole = x + response.rigid @ condensed.travel(left) if system.motions else x

@@ -52,6 +52,38 @@ class PieceConditions:
         """(m,) What motions and forces, (d, n), change of g."""
         return self.gap * h[0, self.pair] + self.pressure * r[0, self.pair] + self.friction * r[1, self.pair]
 
+    def number(self, event: PieceEvent) -> int:
+        """Of an event among the conditions."""
+        same = (self.pair == event.pair) & (self.gap == event.gap) & (self.friction == event.friction)
+        return int(np.flatnonzero(same & (self.kink == event.kink) & (self.branch == event.branch))[0])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PieceEvent:
+    """The condition that ends a piece, see `PieceConditions`: of one pair.
+
+    Attributes
+    ----------
+    pair, branch : its number, and of the branch of its bound
+    gap, pressure, friction, start, slope, kink : how g changes with these
+    value, rate : of g at the end of the piece, and per unit of the part of the leg
+    """
+
+    pair: int
+    gap: float
+    pressure: float
+    friction: float
+    branch: int
+    start: float
+    slope: float
+    kink: float
+    value: float
+    rate: float
+
+    def change(self, h: Array, r: Array) -> float:
+        """What motions and forces, (d, n), change of g."""
+        return float(self.gap * h[0, self.pair] + self.pressure * r[0, self.pair] + self.friction * r[1, self.pair])
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TapePoint:
@@ -95,25 +127,35 @@ class TapePoint:
         return _conditions(self)
 
     @cached_property
-    def event(self) -> int:
-        """Number of the condition that ends the piece."""
-        return self.candidates[0]
+    def event(self) -> PieceEvent:
+        """The condition that ends the piece: of all acting pairs that which vanishes most closely here.
 
-    @cached_property
-    def candidates(self) -> list[int]:
-        """For every acting pair the condition that vanishes here, that of the event first."""
-        found, known = [], self.conditions
-        for pair in self.acting:
-            own = np.flatnonzero((known.pair == pair) & (known.rate < 0.0))
-            if len(own):
-                found.append(own[np.argmin(np.abs(known.value[own] / known.rate[own]))])
+        Raises
+        ------
+        InputError
+            Where it comes to zero without speed.
+        """
+        assert self.h_rate is not None
+        assert self.r_rate is not None
+        found = [event for pair in self.acting for event in _options(self, int(pair)) if event.rate < 0.0]
         if not found:
             raise InputError(f"the event at load factor {self.load_factor:.9g} has no pair that goes through it")
-        fastest = float(np.abs(known.rate).max())
-        if min(-known.rate[found]) <= _GRAZES * fastest:
+        first = min(found, key=lambda event: abs(event.value / event.rate))
+        fastest = max(float(np.abs(self.h_rate[0]).max()), float(np.abs(self.r_rate).max()))
+        if -first.rate <= _GRAZES * fastest:
             words = f"a pair grazes its event at load factor {self.load_factor:.9g}, which it comes to without speed"
             raise InputError(f"{words}: derivatives are infinite there")
-        return [int(i) for i in sorted(found, key=lambda i: float(abs(known.value[i] / known.rate[i])))]
+        return first
+
+    @cached_property
+    def shared(self) -> list[int]:
+        """Numbers of the conditions of other acting pairs that vanish with that of the event."""
+        found, known = [], self.conditions
+        for pair in self.acting[self.acting != self.event.pair]:
+            own = np.flatnonzero((known.pair == pair) & (known.rate < 0.0))
+            if len(own):
+                found.append(int(own[np.argmin(np.abs(known.value[own] / known.rate[own]))]))
+        return found
 
 
 def tape_points(tape: Tape) -> list[TapePoint]:
@@ -211,6 +253,41 @@ def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[T
             acting=np.zeros(0, dtype=np.int64),
             increment=True,
         )
+
+
+def _options(point: TapePoint, pair: int) -> Iterator[PieceEvent]:
+    """What may happen to a pair in a piece, as `_conditions` has it of all pairs."""
+    law, states = point.system.law, point.states
+    assert states.codes is not None
+    assert point.h_rate is not None
+    assert point.r_rate is not None
+    code, bound, at = int(states.codes[pair]), law.pieces, (0, pair)
+    gap, p, q = float(point.h[at]), float(point.r[at]), float(point.r[1, pair])
+    gap_rate, p_rate, q_rate = float(point.h_rate[at]), float(point.r_rate[at]), float(point.r_rate[1, pair])
+
+    def of(
+        branch: int = 0, *, gap: float = 0.0, pressure: float = 0.0, friction: float = 0.0, **more: float
+    ) -> PieceEvent:
+        parts = {"start": 0.0, "slope": 0.0, "kink": 0.0} | more
+        rate = gap * gap_rate + pressure * p_rate + friction * q_rate
+        return PieceEvent(pair=pair, branch=branch, gap=gap, pressure=pressure, friction=friction, rate=rate, **parts)
+
+    if code == OPEN:
+        yield of(gap=1.0, value=gap)
+        return
+    yield of(pressure=1.0, value=p)
+    if code == STICK and law.law.closed[pair] == UNDECIDED and not law.unbounded[pair]:
+        for j in range(int(bound.branch_counts[pair])):
+            slope, start = float(bound.slopes[j, pair]), float(bound.starts[j, pair])
+            for s in (1.0, -1.0):
+                value = start + slope * p - s * q
+                yield of(j, pressure=slope, friction=-s, start=1.0, slope=p, value=value)
+    if code > STICK:
+        j, kinks = int(states.branch[pair]), bound.kinks[:, pair]
+        if j:
+            yield of(j, pressure=1.0, kink=-1.0, value=p - float(kinks[j]))
+        if j + 1 < bound.branches and np.isfinite(kinks[j + 1]):
+            yield of(j + 1, pressure=-1.0, kink=1.0, value=float(kinks[j + 1]) - p)
 
 
 def _conditions(point: TapePoint) -> PieceConditions:

@@ -17,7 +17,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.points import TapePoint
+from signorini.derivative.points import PieceEvent, TapePoint
 from signorini.law.bound import FrictionBound
 
 
@@ -64,13 +64,13 @@ class PointChange:
     ----------
     h, r : (d, n) of motions and forces of all pairs, length and force, where the point is
     part : of the part of the leg that is behind
-    conditions : (m,) of the conditions of the piece at its end, scaled; empty in space
+    bound : of the friction of the active pairs; None where that stays
     """
 
     h: Array
     r: Array
     part: float
-    conditions: Array
+    bound: BoundTerm | None
 
 
 @dataclass(kw_only=True, eq=False)
@@ -143,17 +143,15 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
         if moved is not None:
             load += system.condensed.free(*moved)
         h, r = system.respond(states, load)
-        h, r, part, conditions = h + held, r + given, 0.0, np.zeros(0)
-        if states.codes is not None:
-            conditions = _of_conditions(point, h, r, bound)
+        h, r, part = h + held, r + given, 0.0
         if point.at_event:
-            part = -float(conditions[point.event] / point.conditions.rate[point.event])
+            event = point.event
+            part = -(event.change(h, r) + (0.0 if bound is None else _of_bound(event, bound))) / event.rate
             h, r = h + part * _rate(point.h_rate), r + part * _rate(point.r_rate)
-            conditions = conditions + part * point.conditions.rate
         whole = np.zeros((2, *every))
         whole[0][:, system.active], whole[1][:, system.active] = h / system.root, r * system.root
         memory = whole[0, 1:]
-        found.append(PointChange(h=whole[0], r=whole[1], part=part, conditions=conditions))
+        found.append(PointChange(h=whole[0], r=whole[1], part=part, bound=bound))
     return found
 
 
@@ -209,27 +207,34 @@ def _of_friction(point: TapePoint, size: Array, term: BoundTerm) -> None:
     term.slopes[branch, pairs] += size * np.maximum(point.r[0], 0.0)
 
 
-def _of_conditions(point: TapePoint, h: Array, r: Array, bound: BoundTerm | None) -> Array:
-    """(m,) What the conditions of a piece change at its load."""
-    known = point.conditions
-    found = known.change(h, r)
-    if bound is not None:
+def change_of_conditions(point: TapePoint, change: PointChange) -> Array:
+    """(m,) What a parameter changes of the conditions of a piece at its end, scaled."""
+    known, system = point.conditions, point.system
+    found = known.change(system.root * change.h[:, system.active], change.r[:, system.active] / system.root)
+    if change.bound is not None:
         at = known.branch, known.pair
-        found += known.start * bound.starts[at] + known.slope * bound.slopes[at] + known.kink * bound.kinks[at]
+        found += known.start * change.bound.starts[at] + known.slope * change.bound.slopes[at]
+        found += known.kink * change.bound.kinks[at]
     return found
+
+
+def _of_bound(event: PieceEvent, bound: BoundTerm) -> float:
+    """What a change of the friction changes of the condition of an event."""
+    at = event.branch, event.pair
+    return float(event.start * bound.starts[at] + event.slope * bound.slopes[at] + event.kink * bound.kinks[at])
 
 
 def _through_event(point: TapePoint, h: Array, r: Array, term: BoundTerm) -> None:
     """Turn how an output changes with what is at an event into how it changes with what is at its load, in place."""
-    known, i = point.conditions, point.event
-    pair, branch = known.pair[i], known.branch[i]
-    share = -float(np.vdot(h, _rate(point.h_rate)) + np.vdot(r, _rate(point.r_rate))) / known.rate[i]
-    h[0, pair] += share * known.gap[i]
-    r[0, pair] += share * known.pressure[i]
-    r[1, pair] += share * known.friction[i]
-    term.starts[branch, pair] += share * known.start[i]
-    term.slopes[branch, pair] += share * known.slope[i]
-    term.kinks[branch, pair] += share * known.kink[i]
+    event = point.event
+    at = event.branch, event.pair
+    share = -float(np.vdot(h, _rate(point.h_rate)) + np.vdot(r, _rate(point.r_rate))) / event.rate
+    h[0, event.pair] += share * event.gap
+    r[0, event.pair] += share * event.pressure
+    r[1, event.pair] += share * event.friction
+    term.starts[at] += share * event.start
+    term.slopes[at] += share * event.slope
+    term.kinks[at] += share * event.kink
 
 
 def _rate(rate: Array | None) -> Array:

@@ -10,7 +10,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.derivative.points import TapePoint
-from signorini.derivative.recursion import PointChange
+from signorini.derivative.recursion import PointChange, change_of_conditions
 from signorini.derivative.view import HistoryView
 from signorini.errors import InputError
 from signorini.law.bound import SIGN
@@ -74,7 +74,7 @@ def on_edge(point: TapePoint) -> list[int]:
     if point.states.codes is None:
         return []
     if point.at_event:
-        return point.candidates[1:]
+        return point.shared if len(point.acting) > 1 else []
     return np.flatnonzero(np.abs(point.conditions.value) <= _ZERO * (point.system.law.scale or 1.0)).tolist()
 
 
@@ -83,13 +83,15 @@ def edges(view: HistoryView, changes: Sequence[PointChange]) -> list[PathEdge]:
     moves = max((abs(change.part) for change in changes), default=0.0)
     found = []
     for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
-        for k in on_edge(point):
-            rate, grows = float(point.conditions.rate[k]), float(change.conditions[k])
+        on = on_edge(point)
+        grown = change_of_conditions(point, change) if on else np.zeros(0)
+        for k in on:
+            rate, grows = float(point.conditions.rate[k]), float(grown[k])
             scale = point.system.law.scale or 1.0
             apart = (
                 abs(grows / rate) > _SHARED_EVENT * moves
                 if point.at_event
-                else abs(grows) > _SHARED_EVENT * _size(change)
+                else abs(grows) > _SHARED_EVENT * float(np.abs(grown).max())
             )
             if apart and abs(grows) > _ZERO * scale * moves:
                 named = np.array([k])
@@ -97,11 +99,6 @@ def edges(view: HistoryView, changes: Sequence[PointChange]) -> list[PathEdge]:
                 words = words.replace("before load", "with another at load" if point.at_event else "at load")
                 found.append(PathEdge(point=i, condition=k, change=grows, words=words))
     return found
-
-
-def _size(change: PointChange) -> float:
-    """The largest change of a condition at a point."""
-    return float(np.abs(change.conditions).max(initial=0.0))
 
 
 def _conditions(
@@ -113,10 +110,11 @@ def _conditions(
     before, part = (none, none), 0.0
     for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
         known, scale = point.conditions, point.system.law.scale or 1.0
-        happens = set(point.candidates) if point.at_event else set()
-        there = (known.value > _ZERO * scale) & ~np.isin(np.arange(len(known.value)), list(happens))
+        happens = [known.number(point.event), *point.shared] if point.at_event else []
+        there = (known.value > _ZERO * scale) & ~np.isin(np.arange(len(known.value)), happens)
         named = np.flatnonzero(there)
-        yield known.value[there], change.conditions[there], _words(view, point, known.pair[named], _what(point, named))
+        words = _words(view, point, known.pair[named], _what(point, named))
+        yield known.value[there], change_of_conditions(point, change)[there], words
         moved = view.motions(i)
         codes, active = point.states.codes, point.system.active
         assert codes is not None
