@@ -4,7 +4,8 @@
     python -m benchmarks.derivatives [--names NAME ...] [--page]     (--page writes docs/derivatives.md)
 
 Medians of CPU seconds on one thread. The path is all of a prepared model's solve with its tape; a derivative is one
-output by friction, interference, every load, every modulus and the gap of every node.
+output by friction, interference, every load, every modulus and the gap of every node: the first one, which reads the
+tape and pairs tilted sides anew for their moduli, and every further one.
 """
 
 from __future__ import annotations
@@ -33,16 +34,17 @@ _HEAD = (
     "pairs",
     "points",
     "path, s",
+    "first, ms",
     "peak pressure, ms",
     "dissipation, ms",
     "of the path",
-    "Poisson's ratio, ms",
+    "by a Poisson's ratio, ms",
 )
 _REPEATS = 3
 
 
 def problems() -> Iterator[tuple[str, sg.Model]]:
-    """The paper's cylinder pressed, let go and pressed again, without friction too; a fretting pad, one and three cycles."""
+    """A fretting pad, one and three cycles; the paper's cylinder pressed, let go and pressed again."""
     fretting = sg.read(Path(__file__).parent.parent / "examples" / "fretting.toml")
     for cycles in (1, 3):
         steps = [replace(step, repeat=cycles) if step.repeat > 1 else step for step in fretting.steps]
@@ -88,13 +90,13 @@ def row(name: str, model: sg.Model) -> list[str]:
     tape = path()
     of_path = seconds(path)
     outputs = (sg.pressure(contact).peak, sg.dissipation())
-    taken = []
-    for output in outputs:
-        by_all(TapedHistory(tape, model), output)  # what is compiled first
-        taken.append(seconds(lambda output=output: by_all(TapedHistory(tape, model), output)))
+    by_all(TapedHistory(tape, model), outputs[0])  # what is compiled first
+    first = seconds(lambda: by_all(TapedHistory(tape, model), outputs[0]))
     history = TapedHistory(tape, model)
+    by_all(history, outputs[0])
+    taken = [seconds(lambda output=output: by_all(history, output)) for output in outputs]
     body = model.bodies[-1].name
-    of_nu = seconds(lambda: Derivative(TapedHistory(tape, model), outputs[0]).nu[body], 1)
+    of_nu = seconds(lambda: Derivative(history, outputs[0]).nu[body], 1)
     points, system = history.view.points, history.view.points[-1].system
     return [
         name,
@@ -102,7 +104,7 @@ def row(name: str, model: sg.Model) -> list[str]:
         f"{system.pairs}",
         f"{len(points)}",
         f"{of_path:.2f}",
-        *(f"{1e3 * part:.0f}" for part in taken),
+        *(f"{1e3 * part:.0f}" for part in (first, *taken)),
         f"{100.0 * taken[0] / of_path:.0f} %, {100.0 * taken[1] / of_path:.0f} %",
         f"{1e3 * of_nu:.0f}",
     ]

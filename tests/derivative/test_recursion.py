@@ -31,10 +31,13 @@ class Direction:
         self.mu = friction * rng.standard_normal(n)
         self.system = system
 
-    def moved(self, point):
-        motion = (self.A @ point.r.ravel()).reshape(2, -1)
-        motion[0] += self.gap
-        return motion / self.system.root, np.zeros(self.system.motions)
+    def moved(self, points):
+        found = []
+        for point in points:
+            motion = (self.A @ point.r.ravel()).reshape(2, -1)
+            motion[0] += self.gap
+            found.append((motion / self.system.root, np.zeros(self.system.motions)))
+        return found
 
     def bound(self, system):
         term = BoundTerm.of(system.law.pieces)
@@ -82,6 +85,6 @@ def test_both_ways_are_those_of_a_complex_step(path, parameter):
             weights[i] = Weights(h=RAW.standard_normal(change.h.shape), r=RAW.standard_normal(change.r.shape))
     expected = sum(np.vdot(weight.h, found[i].h) + np.vdot(weight.r, found[i].r) for i, weight in weights.items())
     adjoint = backward(points, weights)
-    total = sum(np.vdot(term.motion, direction.moved(points[i])[0]) for i, term in adjoint.terms.items())
+    total = sum(np.vdot(term.motion, direction.moved([points[i]])[0][0]) for i, term in adjoint.terms.items())
     total += sum(term.along(direction.bound(where)) for where, term in adjoint.bounds.items())
     assert total == pytest.approx(expected, rel=1e-12)

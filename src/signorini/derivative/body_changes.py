@@ -82,16 +82,20 @@ class BodyChange:
         """What it changes of the pairs."""
         return PairChange.between(self.low.interface, self.high.interface, self.step)
 
-    def moved(self, point: TapePoint) -> tuple[Array, Array]:
+    def moved(self, points: Sequence[TapePoint]) -> list[tuple[Array, Array]]:
         """Motions of the pairs and resultants."""
-        system = point.system
-        prepared, condensed = system.prepared, system.condensed
-        u, r = displacements([point])[:, 0], system.root * point.r
-        forces = self.pairs.on_bodies(system, r) - self.stiffness @ u
-        forces += sum((point.load.factors.get(name, 0.0) * f for name, f in self.loads.items()), np.zeros(len(u)))
-        load = condensed.reduce(prepared.constraints.on_free(forces)).load
-        motion = condensed.response.moved(load).reshape(r.shape) + self.pairs.motion(system, u, r)
-        return motion, condensed.response.resultant(load)
+        found = []
+        for point in points:
+            system = point.system
+            prepared, response = system.prepared, system.condensed.response
+            u, r = displacements([point]), (system.root * point.r).reshape(-1, 1)
+            forces = (self.pairs.on_bodies(system, r) - self.stiffness @ u)[:, 0]
+            for name, f in self.loads.items():
+                forces += point.load.factors.get(name, 0.0) * f
+            load = system.condensed.reduce(prepared.constraints.on_free(forces)).load
+            motion = response.moved(load) + self.pairs.motions(system, u, r)[:, 0]
+            found.append((motion.reshape(point.r.shape), response.resultant(load)))
+        return found
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What areas change of the friction."""
@@ -118,10 +122,10 @@ class BodyChange:
         found = -float(np.vdot(w, self.stiffness @ u))
         for name, f in self.loads.items():
             found += float((f @ w) @ combination.factor(name))
-        for k in range(w.shape[1] if self.pairs.any else 0):
-            r = combination.forces[..., k]
-            found += float(w[:, k] @ self.pairs.on_bodies(system, r))
-            moved = self.pairs.motion(system, u[:, k], r)
-            moved[0] += (combination.one[k] - 1.0) * self.pairs.gap[system.active]
-            found += float(np.vdot(combination.motion[..., k], moved))
+        if self.pairs.any:
+            r = combination.forces.reshape(-1, w.shape[1])
+            moved = self.pairs.motions(system, u, r)
+            moved[: system.pairs] += np.outer(self.pairs.gap[system.active], combination.one - 1.0)
+            found += float(np.vdot(w, self.pairs.on_bodies(system, r)))
+            found += float(np.vdot(combination.motion.reshape(r.shape), moved))
         return found

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,9 +31,9 @@ class FrictionChange:
     parameter: str
     contact: int
 
-    def moved(self, point: TapePoint) -> None:  # noqa: ARG002
+    def moved(self, points: Sequence[TapePoint]) -> tuple[()]:  # noqa: ARG002
         """Nothing moves at once."""
-        return
+        return ()
 
     def bound(self, system: InterfaceSystem) -> BoundTerm:
         """Slopes, starts and kinks per unit of the parameter."""
@@ -77,12 +78,14 @@ class GapChange:
 
     gap: Array
 
-    def moved(self, point: TapePoint) -> tuple[Array, Array]:
+    def moved(self, points: Sequence[TapePoint]) -> list[tuple[Array, Array]]:
         """Motions of the pairs, and no resultants."""
-        system = point.system
-        motion = np.zeros((system.directions, system.pairs))
-        motion[0] = self.gap[system.active]
-        return motion, np.zeros(system.motions)
+        found = []
+        for point in points:
+            motion = np.zeros((point.system.directions, point.system.pairs))
+            motion[0] = self.gap[point.system.active]
+            found.append((motion, np.zeros(point.system.motions)))
+        return found
 
     def bound(self, system: InterfaceSystem) -> None:  # noqa: ARG002
         """The friction stays."""
@@ -100,12 +103,13 @@ class LoadChange:
 
     name: str
 
-    def moved(self, point: TapePoint) -> tuple[Array, Array]:
-        """Motions of the pairs and resultants, at the load factor of the point."""
-        factor, response = point.load.factors.get(self.name, 0.0), point.system.condensed.response
-        unit = point.system.unit(self.name)
-        motion = response.moved(unit.load).reshape(unit.offset.shape) + unit.offset
-        return factor * motion, factor * response.resultant(unit.load)
+    def moved(self, points: Sequence[TapePoint]) -> list[tuple[Array, Array]]:
+        """Motions of the pairs and resultants, at the load factors of the points."""
+        found = []
+        for point in points:
+            factor, unit = point.load.factors.get(self.name, 0.0), point.system.unit(self.name)
+            found.append((factor * unit.motion, factor * unit.resultant))
+        return found
 
     def bound(self, system: InterfaceSystem) -> None:  # noqa: ARG002
         """The friction stays."""

@@ -271,10 +271,9 @@ class Derivative:
         if isinstance(change, BodyChange | ModulusChange):
             found += change.total(points, adjoint)
             return found + self._at_once(change)
-        for i, term in adjoint.terms.items():
-            moved = change.moved(points[i])
-            if moved is not None:
-                found += float(np.vdot(term.motion, moved[0]) + term.resultant @ moved[1])
+        at_once = change.moved([points[i] for i in adjoint.terms])
+        for term, (motion, resultant) in zip(adjoint.terms.values() if at_once else (), at_once, strict=True):
+            found += float(np.vdot(term.motion, motion) + term.resultant @ resultant)
         if isinstance(change, LoadChange):
             found += self._pulled_by(change.name)
         return found

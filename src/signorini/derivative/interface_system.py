@@ -56,12 +56,16 @@ class UnitLoad:
     forces : (dofs,) nodal forces, with those of what a support prescribes
     offset : (d, a) motions of the active pairs that it prescribes, length
     load, fixed : condensed, all of it and without what a support prescribes
+    motion : (d, a) motions of the active pairs where no force acts on them, length
+    resultant : (k,) work on the rigid motions
     """
 
     forces: Array
     offset: Array
     load: Array
     fixed: Array
+    motion: Array
+    resultant: Array
 
 
 class InterfaceSystem:
@@ -123,7 +127,14 @@ class InterfaceSystem:
                 u = prepared.constraints.prescribed[name]
                 forces, offset = forces - K @ u, moved_by_supports(prepared, u)[:, self.active]
                 load = condensed.reduce(prepared.constraints.on_free(forces)).load
-            self._units[name] = UnitLoad(forces=forces, offset=offset, load=load, fixed=fixed)
+            self._units[name] = UnitLoad(
+                forces=forces,
+                offset=offset,
+                load=load,
+                fixed=fixed,
+                motion=condensed.response.moved(load).reshape(offset.shape) + offset,
+                resultant=condensed.response.resultant(load),
+            )
         return self._units[name]
 
     def imposed(self, h: Array, r: Array) -> Array:

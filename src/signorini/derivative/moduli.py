@@ -109,16 +109,20 @@ class ModulusChange:
         """What areas change of the friction."""
         return self.pairs.bound(system) if self.tilts else None
 
-    def moved(self, point: TapePoint) -> tuple[Array, Array]:
+    def moved(self, points: Sequence[TapePoint]) -> list[tuple[Array, Array]]:
         """Motions of the pairs and resultants."""
-        system = point.system
-        response, seen = _response(system), self._contacts(system, [point])
-        motion, resultant = self._by_forces(system, seen), np.zeros(system.motions)
-        if self.tilts:
-            load = self._on_contact(system, seen.forces)
-            moved = response.B @ response.parts.solve(load) + self._by_pairs(system, seen)
-            motion, resultant = motion + moved, response.resultant(load[:, 0])
-        return motion.reshape(system.directions, -1), resultant
+        found: dict[int, tuple[Array, Array]] = {}
+        for system in dict.fromkeys(point.system for point in points):
+            own = [i for i, point in enumerate(points) if point.system is system]
+            response, seen = _response(system), self._contacts(system, [points[i] for i in own])
+            motion, resultant = self._by_forces(system, seen), np.zeros((system.motions, len(own)))
+            if self.tilts:
+                load = self._on_contact(system, seen.forces)
+                motion = motion + response.B @ response.parts.solve(load) + self._by_pairs(system, seen)
+                resultant = response.rigid.T @ load
+            for k, i in enumerate(own):
+                found[i] = motion[:, k].reshape(system.directions, -1), resultant[:, k]
+        return [found[i] for i in range(len(points))]
 
     def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
         """What it changes of an output through all points, its friction apart."""
@@ -165,19 +169,13 @@ class ModulusChange:
 
     def _by_pairs(self, system: InterfaceSystem, seen: _Contacts) -> Array:
         """(d a, p) Motions of the pairs at the displacements of the bodies, seen otherwise."""
-        T, pairs, dofs = self.prepared.constraints.transform, self.pairs, system.condensed.dofs
-        u = T[:, dofs] @ seen.whole + seen.imposed
-        shape = (system.directions, system.pairs)
-        moved = [pairs.motion(system, u[:, k], seen.forces[:, k].reshape(shape)).ravel() for k in range(u.shape[1])]
-        return np.stack(moved, axis=-1)
+        T, dofs = self.prepared.constraints.transform, system.condensed.dofs
+        return self.pairs.motions(system, T[:, dofs] @ seen.whole + seen.imposed, seen.forces)
 
     def _on_contact(self, system: InterfaceSystem, forces: Array) -> Array:
         """(m, p) Loads on the contact dofs that forces (d a, p) of the pairs are otherwise."""
-        shape, constraints = (system.directions, system.pairs), self.prepared.constraints
-        rows = [
-            constraints.on_free(self.pairs.on_bodies(system, r.reshape(shape)))[system.condensed.dofs] for r in forces.T
-        ]
-        return np.stack(rows, axis=-1)
+        nodal = self.pairs.on_bodies(system, forces)
+        return np.asarray(self.prepared.constraints.on_free(nodal)[system.condensed.dofs])
 
     def _own(self, system: InterfaceSystem) -> BoolArray:
         """(m,) Contact dofs of the body."""

@@ -55,23 +55,25 @@ class PairChange:
         """Whether anything changes."""
         return bool(self.B.data.any() or self.gap.any() or self.compliance.any())
 
-    def motion(self, system: InterfaceSystem, u: Array, r: Array) -> Array:
-        """(d, a) Motions ``B' u + C' r + g'`` of the active pairs.
+    def motions(self, system: InterfaceSystem, u: Array, r: Array) -> Array:
+        """(d a, k) Motions ``B' u + C' r + g'`` of the active pairs.
 
         Parameters
         ----------
         system : the interface
-        u, r : (dofs,) displacements, (d, a) forces
+        u, r : (dofs, k) displacements, (d a, k) forces
         """
-        moved = (self.B @ u).reshape(system.directions, -1)[:, system.active]
-        moved[0] += self.gap[system.active]
-        return np.asarray(moved + self.compliance[:, system.active] * r)
+        rows = system.condensed.active
+        moved = (self.B @ u)[np.tile(rows, system.directions)]
+        moved[: system.pairs] += self.gap[rows][:, None]
+        return np.asarray(moved + self.compliance[:, rows].ravel()[:, None] * r)
 
     def on_bodies(self, system: InterfaceSystem, r: Array) -> Array:
-        """(dofs,) Forces ``B'^T r`` of forces (d, a) of the active pairs."""
-        whole = np.zeros((system.directions, len(self.gap)))
-        whole[:, system.active] = r
-        return np.asarray(self.B.T @ whole.ravel())
+        """(dofs, k) Forces ``B'^T r`` of forces (d a, k) of the active pairs."""
+        rows = np.tile(system.condensed.active, system.directions)
+        whole = np.zeros((len(rows), r.shape[1]))
+        whole[rows] = r
+        return np.asarray(self.B.T @ whole)
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What areas change of the friction of the active pairs; None where that does not ask for them."""

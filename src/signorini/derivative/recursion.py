@@ -49,8 +49,8 @@ class BoundTerm:
 class Change(Protocol):
     """What a parameter changes at once, per unit of it, where no pair moves."""
 
-    def moved(self, point: TapePoint) -> tuple[Array, Array] | None:
-        """Motions of the pairs (d, a), length, and resultants of loads (k,), force; None where there are none."""
+    def moved(self, points: Sequence[TapePoint]) -> Sequence[tuple[Array, Array]]:
+        """Motions of the pairs (d, a), length, and resultants of loads (k,), force, at points; empty for none."""
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What it changes of the friction of the active pairs, scaled; None where that stays."""
@@ -127,7 +127,8 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
     found: list[PointChange] = []
     bounds: dict[InterfaceSystem, BoundTerm | None] = {}
     memory: Array | None = None
-    for point in points:
+    at_once = change.moved(points)
+    for i, point in enumerate(points):
         system, states = point.system, point.states
         if system not in bounds:
             bounds[system] = change.bound(system)
@@ -139,9 +140,8 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
         if bound is not None:
             given[1:] = states.unit * _on_branches(bound, states.branch, np.maximum(point.r[0], 0.0))
         load = system.imposed(held, given)
-        moved = change.moved(point)
-        if moved is not None:
-            load += system.condensed.free(*moved)
+        if at_once:
+            load += system.condensed.free(*at_once[i])
         h, r = system.respond(states, load)
         h, r, part = h + held, r + given, 0.0
         if point.at_event:
