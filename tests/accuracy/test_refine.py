@@ -222,6 +222,16 @@ def test_a_deck_asks_for_an_accuracy(tmp_path, capsys):
     assert "the mesh is refined until the traction is exact to 0.1, up to 200000 nodes" in capsys.readouterr().out
 
 
+def test_shapes_are_given(tmp_path, capsys):
+    shape = "{ circle = { centre = [0.0, 8.0], radius = 8.0 } }"
+    assert run(tmp_path, f"[solve]\naccuracy = 0.2\nshapes = {{ arc = {shape} }}") == 0
+    assert "mesh: 'arc' follows a circle of radius 8 about (0, 8)" in capsys.readouterr().out
+    off, unknown = {"arc": sg.Circle((0, 8), 9.0)}, {"ark": "spline"}
+    for shapes, words in ((off, "node 3 of the boundary is 1 off it"), (unknown, "did you mean 'arc'")):
+        with pytest.raises(sg.InputError, match=words):
+            sg.solve(cylinder(order=1), accuracy=sg.Accuracy(0.1, shapes=shapes))
+
+
 def test_the_command_line_asks_before_the_deck(tmp_path, capsys):
     assert run(tmp_path, "[solve]\naccuracy = 0.001", "--accuracy", "estimate") == 0
     assert "estimated errors: pressure" in capsys.readouterr().out
@@ -237,6 +247,8 @@ def test_the_command_line_asks_before_the_deck(tmp_path, capsys):
         ("[solve]\naccuracy = -1", "solve.accuracy: is -1; expected a number > 0"),
         ("[solve]\naccuracy = 'fine'", "solve.accuracy: is 'fine'; expected a relative error > 0, or 'estimate'"),
         ("[solve]\naccuracy = 0.1\nof = 'peak'", "solve.of: unknown kind of accuracy 'peak'"),
+        ("[solve]\naccuracy = 0.1\nshapes = { arc = 'round' }", "solve.shapes.arc: is 'round'; expected a shape"),
+        ("[solve]\naccuracy = 0.1\nshapes = { arc = { ring = 1 } }", "solve.shapes.arc: has ring; expected one of"),
         ("[solve]\naccuracy = 'estimate'\nnodes = 3", "solve.nodes: belongs to an accuracy"),
     ],
 )

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from signorini.accuracy.curves import curves_of
+from signorini.accuracy.curves import Spline, curves_of
 from signorini.errors import InputError
 from signorini.fem.space import make_space
 from signorini.meshing.plane import annulus, quarter_disk, rectangle
@@ -104,6 +104,19 @@ def test_shapes_are_known():
     pipe = extruded(ring, z=[0.0, 1.0, 2.0])
     assert str(curves_of(pipe)["inner"]) == "a cylinder of radius 1"
     assert curves_of(box(x=[0, 1], y=[0, 1], z=[0, 1])) == {}
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_splines_are_of_fourth_order(closed):
+    """Through points of an ellipse, closed or a half of it: twice as many leave a sixteenth."""
+    near = np.linspace(0.35, 2.8, 23)
+    errors = []
+    for count in (24, 48):
+        angle = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)[: None if closed else count // 2 + 1]
+        line = Spline(np.column_stack([3.0 * np.cos(angle), 2.0 * np.sin(angle)]), closed=closed)
+        found = line(1.01 * np.column_stack([3.0 * np.cos(near), 2.0 * np.sin(near)]))
+        errors.append(np.abs(((found / [3.0, 2.0]) ** 2).sum(axis=1) - 1.0).max())
+    assert errors[1] < errors[0] / 10.0
 
 
 def test_values_are_carried_linearly():

@@ -3,20 +3,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.spatial import KDTree
 
 from signorini.arrays import Array, IntArray
+from signorini.errors import InputError, one_of
 from signorini.meshing.facets import facet_corners
+from signorini.meshing.profile import mesh_profile
 from signorini.meshing.simplices import Curve
 from signorini.model.mesh import Mesh
+from signorini.model.obstacle import Obstacle
 
 _ON_IT = 1e-6
-"""Of the radius: how far nodes may be from a circle that they lie on; files have few digits."""
+"""Of the radius, or of a boundary: how far nodes may be from a shape that they lie on; files have few digits."""
 
 _TURN = 0.78
 """Radians between neighbouring facets above which they are meant to be corners: those of an octagon are."""
+
+_SPLINE_NODES = 4
+"""That a cubic line goes through, at least."""
+
+_SAMPLES, _STEPS = 8, 4
+"""Places of every piece of a spline that are looked at, and steps of Newton's method from the nearest: all digits."""
 
 _NODES_MORE = 1
 """Nodes that have to lie on a circle or sphere beyond those that any one goes through."""
@@ -50,8 +62,55 @@ class Round:
         return f"{name} of radius {self.radius:.6g}"
 
 
-def curves_of(mesh: Mesh) -> dict[str, Curve]:
-    """Shapes of the boundaries whose nodes lie on one; flat ones and those with corners are left out.
+@dataclass(frozen=True)
+class ObstacleCurve:
+    """A shape that an obstacle may have."""
+
+    shape: Obstacle
+
+    def __call__(self, points: Array) -> Array:
+        """The nearest points of it to points (k, d)."""
+        distance, normals = self.shape.nearest(points)
+        return np.asarray(points - distance[:, None] * normals)
+
+    def __str__(self) -> str:
+        return str(self.shape)
+
+
+class Spline:
+    """A smooth line through points of the plane, in order; closed where the last is the first."""
+
+    def __init__(self, points: Array, *, closed: bool) -> None:
+        way = np.vstack([points, points[:1]]) if closed else points
+        at = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))])
+        self._line = CubicSpline(at, way, bc_type="periodic" if closed else "not-a-knot")
+        self._grid = np.interp(np.arange(_SAMPLES * (len(at) - 1) + 1) / _SAMPLES, np.arange(len(at)), at)
+        self._tree = KDTree(self._line(self._grid))
+
+    def __call__(self, points: Array) -> Array:
+        """The nearest points of it to points (k, 2): the nearest of many, and Newton's method from there."""
+        at = self._grid[self._tree.query(points)[1]]
+        for _ in range(_STEPS):
+            arm, slope, bend = self._line(at) - points, self._line(at, 1), self._line(at, 2)
+            at = at - (arm * slope).sum(axis=1) / ((slope * slope).sum(axis=1) + (arm * bend).sum(axis=1))
+        return np.asarray(self._line(np.clip(at, self._grid[0], self._grid[-1])))
+
+    def __str__(self) -> str:
+        return "a spline through its nodes"
+
+
+def curves_of(mesh: Mesh, shapes: Mapping[str, Obstacle | str] | None = None) -> dict[str, Curve]:
+    """Shapes of boundaries: those that are given, and those that nodes lie on; flat ones and corners have none.
+
+    Parameters
+    ----------
+    mesh : of the boundaries
+    shapes : of some, see :class:`signorini.model.accuracy.Accuracy`
+
+    Raises
+    ------
+    InputError
+        For an unknown boundary, nodes that are not on the shape, or a spline that there is none of.
 
     Examples
     --------
@@ -60,13 +119,41 @@ def curves_of(mesh: Mesh) -> dict[str, Curve]:
     >>> {name: str(curve) for name, curve in curves.items()}
     {'arc': 'a circle of radius 8'}
     """
+    given = shapes or {}
     found: dict[str, Curve] = {}
+    for name in given:
+        if name not in mesh.boundaries:
+            raise InputError(one_of(name, mesh.boundaries, "boundary"), where=("accuracy", "shapes"))
     for name in mesh.boundaries:
-        if not mesh.bounds_nothing(name):
+        if name in given:
+            if given[name] != "straight":
+                found[name] = _given(mesh, name, given[name])
+        elif not mesh.bounds_nothing(name):
             curve = _curve(mesh, name)
             if curve is not None:
                 found[name] = curve
     return found
+
+
+def _given(mesh: Mesh, name: str, shape: Obstacle | str) -> Curve:
+    """A shape that is asked for."""
+    where = ("accuracy", "shapes", name)
+    d, points = mesh.points.shape[1], mesh.points[mesh.nodes_of(name)]
+    if isinstance(shape, str):
+        if d == 3 or len(points) < _SPLINE_NODES:
+            words = "is a line of the plane through four nodes or more; expected a shape here"
+            raise InputError(f"'spline' {words}", where=where)
+        line = mesh_profile(mesh, name)
+        return Spline(np.array(line.points), closed=line.closed)
+    if shape.dimension != d:
+        raise InputError(f"is {shape}; expected a shape with {d} coordinates", where=where)
+    corners = np.unique(np.concatenate([f[:, : facet_corners(d, f.shape[1])].ravel() for f in mesh.facets(name)]))
+    distance, _ = shape.nearest(mesh.points[corners])
+    worst = int(np.argmax(np.abs(distance)))
+    if np.abs(distance[worst]) > _ON_IT * float(np.ptp(points, axis=0).max()):
+        node = mesh.labels[corners[worst]]
+        raise InputError(f"is {shape}; node {node} of the boundary is {abs(distance[worst]):.3g} off it", where=where)
+    return ObstacleCurve(shape)
 
 
 def _curve(mesh: Mesh, name: str) -> Round | None:

@@ -127,7 +127,7 @@ def accurate(model: Model, asked: Asked, solve: Callable[[Model], History]) -> H
 
 def _refined(model: Model, request: Accuracy, solve: Callable[[Model], History]) -> History:
     """On finer and finer meshes, until errors are below what was asked, or a bound ends it."""
-    meshes, start = _Meshes(model), time.perf_counter()
+    meshes, start = _Meshes(model, request), time.perf_counter()
     posed, levels, known = meshes.first(), list[MeshLevel](), None
     while True:
         begun = time.perf_counter()
@@ -214,9 +214,9 @@ def _by_nodes(value: object) -> bool:
 class _Meshes:
     """A model on finer and finer meshes."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, request: Accuracy) -> None:
         mesh, d = model.mesh, model.dimension
-        self._model, self._curves = model, curves_of(mesh)
+        self._model, self._curves = model, curves_of(mesh, request.shapes)
         cut = [family for family in mesh.cells if CORNERS[family] != d + 1]
         self._order = 1 if not cut and _linear(model) else 2
         self.notes = tuple(f"'{name}' follows {curve}" for name, curve in self._curves.items())

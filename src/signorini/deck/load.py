@@ -17,9 +17,10 @@ from signorini.deck.keys import check_keys, make, table, tables
 from signorini.deck.meshes import cut_for_bolts, deck_mesh
 from signorini.deck.nodal_forces import with_nodal_forces
 from signorini.deck.syntax import parse
-from signorini.deck.tables import FIELDS, deck_bodies, deck_materials, deck_parts
+from signorini.deck.tables import FIELDS, OBSTACLES, deck_bodies, deck_materials, deck_parts, deck_shape
 from signorini.errors import InputError, Where
 from signorini.model.accuracy import Accuracy, Asked
+from signorini.model.mesh import Mesh
 from signorini.model.model import Model
 from signorini.model.modes import ModesRequest
 from signorini.settings import SolverSettings
@@ -112,12 +113,12 @@ def _deck(data: Mapping[str, Any], path: Path, lines: Mapping[Where, int], reach
         lines=MappingProxyType(dict(lines)),
         unused_materials=unused,
         settings=settings,
-        accuracy=_accuracy(table(data["solve"], ("solve",))) if "solve" in data else None,
+        accuracy=_accuracy(table(data["solve"], ("solve",)), reach, mesh) if "solve" in data else None,
         modes=asked,
     )
 
 
-def _accuracy(data: Mapping[str, Any]) -> Asked:
+def _accuracy(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> Asked:
     """What ``[solve]`` asks for: ``accuracy``, an error or "estimate", and what `Accuracy` has beside it."""
     where = ("solve",)
     check_keys(data, where, known=("accuracy", *ACCURACY_KEYS), needed=["accuracy"])
@@ -128,8 +129,23 @@ def _accuracy(data: Mapping[str, Any]) -> Asked:
         return "estimate"
     if isinstance(asked, str):
         raise InputError(f"is '{asked}'; expected a relative error > 0, or 'estimate'", where=(*where, "accuracy"))
+    if "shapes" in rest:
+        shapes = table(rest["shapes"], (*where, "shapes"))
+        rest["shapes"] = {name: _shape(value, (*where, "shapes", name), reach, mesh) for name, value in shapes.items()}
     try:
         return Accuracy(asked, **rest)
     except InputError as error:
         names = ("accuracy",) if error.where == ("error",) else error.where
         raise InputError(error.message, where=(*where, *names)) from error
+
+
+def _shape(value: Any, where: Where, reach: Reach, mesh: Mesh) -> Any:
+    """A word, or a table with one shape of obstacles."""
+    if isinstance(value, str):
+        return value
+    entry = table(value, where)
+    if len(entry) != 1 or not entry.keys() <= OBSTACLES.keys():
+        words = f"one of {', '.join(OBSTACLES)}, 'spline' or 'straight'"
+        raise InputError(f"has {', '.join(entry) or 'nothing'}; expected {words}", where=where)
+    ((key, given),) = entry.items()
+    return deck_shape(key, given, (*where, key), reach, mesh)

@@ -190,8 +190,16 @@ def _closure(entry: dict[str, Any], where: Where) -> Closure:
     return make(Closure.exponential if exponential else Closure, entry, where)
 
 
-def _shape(key: str, value: Any, where: Where, reach: Reach, mesh: Mesh) -> Obstacle:
-    """A rigid shape; profiles and surfaces may be in a file, or be a boundary of the deck's mesh."""
+def deck_shape(key: str, value: Any, where: Where, reach: Reach, mesh: Mesh) -> Obstacle:
+    """A rigid shape; profiles and surfaces may be in a file, or be a boundary of the deck's mesh.
+
+    Parameters
+    ----------
+    key, value : its name and what it is made of
+    where : its path in the deck
+    reach : where files may be
+    mesh : of the deck
+    """
     entry = {"file": value} if key == "surface" and isinstance(value, str) else table(value, where)
     if key not in ("profile", "surface") or not {"file", "boundary"} & set(entry):
         return make(OBSTACLES[key], entry, where)
@@ -230,7 +238,7 @@ def _obstacle(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> 
     if len(shapes) != 1:
         raise InputError(f"has {len(shapes)} shapes; expected one of {', '.join(OBSTACLES)}", where=where)
     key = shapes[0]
-    given["shape"] = _shape(key, given.pop(key), (*where, key), reach, mesh)
+    given["shape"] = deck_shape(key, given.pop(key), (*where, key), reach, mesh)
     return make(Rigid, given, where)
 
 
@@ -273,5 +281,5 @@ def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> C
     if key == "mortar":
         text(given["mortar"], (*where, "mortar"))
     else:
-        given["mortar"] = _shape(key, given.pop(key), (*where, key), reach, mesh)
+        given["mortar"] = deck_shape(key, given.pop(key), (*where, key), reach, mesh)
     return make(Contact, given, where)

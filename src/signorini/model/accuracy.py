@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from signorini.checks import choice, number, whole
+from signorini.errors import InputError
+from signorini.model.obstacle import Obstacle
 
 AccurateIn = Literal["pressure", "traction", "energy"]
 """What is to be accurate: pressures of the contacts, their pressures and frictions, or stresses in the bodies."""
@@ -23,6 +26,9 @@ class Accuracy:
         stresses in all bodies, in the norm of energy
     nodes : most nodes of a mesh that is tried
     seconds : of the clock after which no finer mesh is begun; None: no matter how many
+    shapes : boundary to the shape that it stands for and that new nodes go onto: one of those of obstacles; "spline"
+        through its nodes, in the plane; "straight", as the mesh has it. Of others a circle, a sphere or a cylinder is
+        found where nodes lie on one
 
     Raises
     ------
@@ -42,6 +48,7 @@ class Accuracy:
     of: AccurateIn = "pressure"
     nodes: int = 200_000
     seconds: float | None = None
+    shapes: Mapping[str, Obstacle | Literal["spline", "straight"]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "error", number(self.error, ("error",), above=0.0))
@@ -49,6 +56,12 @@ class Accuracy:
         object.__setattr__(self, "nodes", whole(self.nodes, ("nodes",), least=1))
         if self.seconds is not None:
             object.__setattr__(self, "seconds", number(self.seconds, ("seconds",), above=0.0))
+        if not isinstance(self.shapes, Mapping):
+            raise InputError(f"is {self.shapes!r}; expected boundaries and their shapes", where=("shapes",))
+        for name, shape in self.shapes.items():
+            if not isinstance(shape, Obstacle) and shape not in ("spline", "straight"):
+                words = "a shape, 'spline' or 'straight'"
+                raise InputError(f"is {shape!r}; expected {words}", where=("shapes", str(name)))
 
 
 Asked = float | Accuracy | Literal["estimate"]
