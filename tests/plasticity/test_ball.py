@@ -34,10 +34,10 @@ def pressed(beyond, *, n=2, friction=0.3, hardening=0.0, block=None, cells="quad
     "given",
     [
         {"cells": "quad"},
-        {"cells": "quad", "block": 2},
-        {"cells": "quad8", "hardening": 0.01},
+        {"cells": "quad", "n": 1, "block": 1},
+        {"cells": "quad8", "n": 1, "hardening": 0.01},
         {"cells": "tetra10", "n": 1},
-        {"cells": "quad", "block": 2, "friction": 0.0},
+        {"cells": "quad", "n": 1, "block": 1, "friction": 0.0},
     ],
     ids=["on a plane", "on a block", "hexahedron20", "tetra10", "without friction"],
 )

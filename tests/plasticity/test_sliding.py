@@ -97,7 +97,7 @@ def hub(increments: int) -> sg.Model:
 def test_meshed_sides_that_yield_slide_with_friction(kind: str) -> None:
     """Friction is that of the pressure, and energies close as increments are made finer, in first order."""
     friction, missed = (0.2 if kind == "axisymmetric" else 0.3), []
-    for increments in (8, 32):
+    for increments in (6, 24):
         steps = sg.solve(hub(increments) if kind == "axisymmetric" else dragged(kind, increments=increments)).steps
         drag, contact = steps[-1], steps[-1].contacts[0]
         pressed = float(contact.pressure @ contact.area)

@@ -27,7 +27,7 @@ TOLERANCE = 1e-2
 """Of ``increments = "auto"`` where bodies yield, if the step gives none: backward Euler is of first order."""
 
 _INCREMENTS_BELOW = 8  # of what is followed below collapse: the load named is a bound, they may end before it
-_TIGHTER_BOUNDS = 3  # of a limit load, each from the load that the one before names
+_TIGHTER_BOUNDS = 4  # of a limit load, each from the load that the one before names
 _BOUND_TOL = 3e-4  # of a limit load: bounds that would move by less are not sought again
 _BELOW_COLLAPSE = 0.98  # of the load at which bodies flow: up to there they are followed
 _LITTLE_WORK = 1e-6  # of the plastic work so far: where a part takes less, its share decides nothing
@@ -131,7 +131,7 @@ def _tightened(part: StepPart, found: Collapse, fraction: float) -> tuple[Collap
     part : with that limit
     found, fraction : the first mechanism and its bound
     """
-    before = 1.0 - fraction
+    before = 0.0  # the first move tells nothing of the next one
     for _ in range(_TIGHTER_BOUNDS):
         try:
             advance(part.prepared, part.before, part.before.point.towards(part.end, fraction), part.where)
@@ -143,7 +143,7 @@ def _tightened(part: StepPart, found: Collapse, fraction: float) -> tuple[Collap
             break
         moved = fraction - again.part
         found, fraction = again, again.part
-        if moved * moved < _BOUND_TOL * fraction * before:  # moves fall faster and faster
+        if moved * min(moved, before) < _BOUND_TOL * fraction * before:  # moves fall faster and faster
             break
         before = moved
     return found, fraction
