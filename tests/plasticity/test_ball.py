@@ -35,7 +35,7 @@ def pressed(beyond, *, n=2, friction=0.3, hardening=0.0, block=None, cells="quad
     [
         {"cells": "quad"},
         {"cells": "quad", "n": 1, "block": 1},
-        {"cells": "quad8", "n": 1, "hardening": 0.01},
+        {"cells": "quad8", "hardening": 0.01},
         {"cells": "tetra10", "n": 1},
         {"cells": "quad", "n": 1, "block": 1, "friction": 0.0},
     ],
