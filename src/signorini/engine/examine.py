@@ -116,15 +116,17 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         scale=data_scale(space, model, loading, interface),
     )
     if model.yields and examined.turns:
-        _refuse_sliding(model)
+        _refuse_sliding(model, "a body yields and one may turn; expected elastic bodies, or supports against turning")
+    if model.slides and interface.closure is not None:
+        _refuse_sliding(model, "another contact has a closure; expected none that has, or sides that slip a little")
     _refuse_unheld(examined, schedule)
     if model.fatigue:
         refuse_requests(space, model)
     return examined
 
 
-def _refuse_sliding(model: Model) -> None:
-    """Refuse bodies that yield and turn: contacts that slide far are between those that do one of both.
+def _refuse_sliding(model: Model, words: str) -> None:
+    """Refuse contacts that slide far, for what the words say.
 
     Raises
     ------
@@ -133,8 +135,7 @@ def _refuse_sliding(model: Model) -> None:
     """
     for i, contact in enumerate(model.contacts):
         if contact.slides:
-            words = 'is "finite", a body yields and one may turn; expected elastic bodies, or supports against turning'
-            raise InputError(words, where=("contact", i, "sliding"))
+            raise InputError(f'is "finite", {words}', where=("contact", i, "sliding"))
 
 
 def _refuse_unheld(examined: Examined, schedule: Sequence[Stage]) -> None:

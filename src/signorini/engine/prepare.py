@@ -303,7 +303,7 @@ def prepare(
     made = condensed_model(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
     wearing = worn_sides(made.space, made.model, made.interface) if model.wears else None
-    if wearing is not None and made.solver.paths is None:
+    if wearing is not None and made.solver.paths is None and made.interface.closure is None:
         raise InputError(_UNCONDENSED_WEAR, where=("contact", int(wearing.contact[0]), "wear"))
     made = replace(made, released=next(stages(made.model, before=before)).released, wearing=wearing)
     return _flowing(made, yielding_bodies(made.space, made.model) if model.yields else None)

@@ -16,7 +16,7 @@ NEEDS_OF_STRIDES = (
 )
 """What blocks need where sides slide far."""
 
-NEEDS_OF_PAIRS = "blocks of cycles need exact paths; expected no 'increments', and no results at events"
+NEEDS_OF_PAIRS = "blocks of cycles need exact paths; expected no 'increments', no results at events, no closure"
 """What they need elsewhere."""
 
 _MOST_MISSING = 0.1  # of the work of a step: what given increments may leave where sides wear
