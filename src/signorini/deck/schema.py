@@ -19,6 +19,7 @@ from signorini.deck.meshes import FILE_KEYS, GENERATORS
 from signorini.deck.tables import CONTACT_KEYS, KINDS, OBSTACLE_KEYS, OBSTACLES
 from signorini.fatigue.criteria import CRITERIA
 from signorini.law.closure import Closure
+from signorini.law.cohesion import Cohesion
 from signorini.model.accuracy import Accuracy
 from signorini.model.body import Body
 from signorini.model.bolt import Bolt
@@ -45,6 +46,16 @@ _PLAIN: Mapping[Any, Schema] = {float: _NUMBER, int: {"type": "integer"}, str: _
 _SAID = ("description", "default")
 _VARIES = (Along, ArcLength, NodeValues, Scattered)
 
+_INNER: Mapping[str, tuple[Callable[..., Any], ...]] = {
+    "wear": (Wear,),
+    "closure": (Closure, Closure.exponential),
+    "cohesion": (Cohesion, Cohesion.by_energy),
+}
+"""Tables inside that of a contact, and what they become."""
+
+FILED = {"profile": ("file", "boundary", "flip"), "surface": ("file", "boundary", "flip")}
+"""Rigid shapes that a file or the mesh of the deck may have, and the keys that say so."""
+
 OWN_WORDS = {
     "mesh.file": "a mesh that meshio reads, a universal file .unv, or a geometry of Gmsh .geo, relative to the deck",
     "mesh.generator": "a generator of meshes; its parameters are the other keys",
@@ -65,7 +76,12 @@ def deck_schema() -> Schema:
     bolt = _table(
         [Bolt], "bolt", replaced={"plane": _TABLE | _own("bolt", "plane"), "halves": _LIST | _own("bolt", "halves")}
     )
-    criterion = _either([{"enum": list(CRITERIA)}, _TABLE]) | {"description": "by name, or a table with its constants"}
+    constants = _table(
+        CRITERIA.values(), "fatigue.criterion", needed=("name",), replaced={"name": {"enum": list(CRITERIA)}}
+    )
+    criterion = _either([{"enum": list(CRITERIA)}, constants]) | {
+        "description": "by name, or a table with its constants"
+    }
     forces = _either([_LIST, _TABLE]) | _own("load", "nodal_forces")
     own["load"] = _array(_table([Load], "load", needed=(), replaced={"nodal_forces": forces}))
     own["bolt"], own["fatigue"] = _array(bolt), _array(_table([Fatigue], "fatigue", replaced={"criterion": criterion}))
@@ -148,7 +164,8 @@ def _own(path: str, key: str) -> Schema:
 
 def _key(kind: Callable[..., Any], name: str, parameter: inspect.Parameter) -> Schema:
     """A parameter of a class as a key: its type, what its docstring says, and its default."""
-    words = _parameter_words(inspect.getdoc(kind) or "").get(name, "")
+    told = (base.__doc__ for base in (inspect.getmro(kind) if inspect.isclass(kind) else (kind,)))
+    words = next((said[name] for said in map(_parameter_words, filter(None, told)) if name in said), "")
     found = dict(_typed(_hint(kind, name)))
     if words:
         found["description"] = words
@@ -202,6 +219,7 @@ def _either(schemas: Iterable[Schema]) -> Schema:
 
 def _parameter_words(docstring: str) -> dict[str, str]:
     """Parameter to what a docstring says of it, in one line without marks."""
+    docstring = inspect.cleandoc(docstring)
     block = re.search(r"^(?:Parameters|Attributes)\n-+\n(.*?)(?=^\w+\n-+\n|\Z)", docstring, re.MULTILINE | re.DOTALL)
     found: dict[str, str] = {}
     for entry in re.split(r"\n(?=\S)", block[1].strip()) if block else ():
@@ -237,26 +255,22 @@ def _shapes() -> dict[str, Schema]:
     found = {}
     for key, shape in OBSTACLES.items():
         words = (inspect.getdoc(shape) or "").split("\n\n")[0]
-        kinds = _either([_TABLE, *([_TEXT] if key == "surface" else [])])
-        found[key] = kinds | {"description": " ".join(words.replace("`", "").split())}
+        made, kinds = _table([shape], key), [_TEXT] if key == "surface" else []
+        if key in FILED:
+            made = made | {"properties": made["properties"] | {name: {} for name in FILED[key]}, "required": []}
+        found[key] = _either([made, *kinds]) | {"description": " ".join(words.replace("`", "").split())}
     return found
 
 
 def _contact() -> Schema:
     words = _parameter_words(inspect.getdoc(Contact) or "")
+    inner = {key: _either([_table([kind], key) for kind in kinds]) for key, kinds in _INNER.items()}
     replaced = _shapes() | {
-        "mortar": _TEXT | {"description": words["mortar"]},
+        "mortar": _TEXT,
         "between": {"type": "array", "items": _TEXT, "minItems": 2, "maxItems": 2} | _own("contact", "between"),
-        "wear": _table([Wear], "contact.wear") | {"description": words["wear"]},
-        "closure": _closure() | {"description": words["closure"]},
-        "friction": {
-            "anyOf": [_NUMBER, {"enum": ["stick", "tied"]}, _TABLE, _array(_NUMBER)],
-            "description": words["friction"],
-            "default": 0.0,
-        },
+        "friction": {"anyOf": [_NUMBER, {"enum": ["stick", "tied"]}, _TABLE, _array(_NUMBER)], "default": 0.0},
+        **inner,
     }
+    said = {key: {"description": words[key]} for key in ("mortar", "friction", *_INNER)}
+    replaced = {key: schema | said.get(key, {}) for key, schema in replaced.items()}
     return _table([Contact], "contact", CONTACT_KEYS, needed=(), replaced=replaced)
-
-
-def _closure() -> Schema:
-    return {"anyOf": [_table([Closure], "contact.closure"), _table([Closure.exponential], "contact.closure")]}
