@@ -260,3 +260,24 @@ def test_contacts_that_share_a_corner_share_its_force_in_one_way():
         found.append(sg.solve(model).last.contacts)
     for one, other in zip(*found, strict=True):
         np.testing.assert_allclose(other.pressure, one.pressure, atol=1e-3 * one.pressure.max())
+
+
+def test_exact_paths_on_facets_and_bodies_that_are_iterated():
+    """To and fro: work is stored or rubbed to rounding from event to event, many increments come to the same, and so do
+    bodies that nothing is factorised of.
+    """
+    drive = sg.Step(name="drive", scale={"core": [0.4, -0.2, 0.3]})
+    model = fit_under_torque(turn=0.003, pull=0.01, n=(2, 2), facets=8, steps=(sg.Step(scale={"core": 0.0}), drive))
+    press, drive = model.steps
+    exact = sg.solve(replace(model, steps=[replace(press, path="exact"), replace(drive, path="exact")])).last
+    many = sg.solve(replace(model, steps=[press, replace(drive, increments=32)])).last
+    assert len(exact.events) > 4
+    assert abs(exact.energy_defect) < 1e-12 * exact.dissipation
+    one, other = exact.contacts[0], many.contacts[0]
+    np.testing.assert_allclose(other.traction, one.traction, atol=2e-3 * one.pressure.max())
+    assert many.dissipation == pytest.approx(exact.dissipation, rel=2e-2)
+    smooth = replace(
+        model, contacts=[replace(model.contacts[0], facets=0)], steps=[press, replace(drive, increments=2)]
+    )
+    torques = [sg.solve(smooth, backend=backend).last.contacts[0].torque for backend in ("auto", "iterative")]
+    assert torques[1] == pytest.approx(torques[0], rel=1e-6)
