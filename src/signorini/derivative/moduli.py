@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
 from signorini.condense.response import ByNodes
@@ -169,13 +170,29 @@ class ModulusChange:
 
     def _by_pairs(self, system: InterfaceSystem, seen: _Contacts) -> Array:
         """(d a, p) Motions of the pairs at the displacements of the bodies, seen otherwise."""
-        T, dofs = self.prepared.constraints.transform, system.condensed.dofs
-        return self.pairs.motions(system, T[:, dofs] @ seen.whole + seen.imposed, seen.forces)
+        rows, pairs = system.condensed.active, self.pairs
+        moved = self._on_dofs(system) @ seen.whole
+        if seen.imposed.any():
+            moved += (pairs.B @ seen.imposed)[np.tile(rows, system.directions)]
+        moved[: system.pairs] += pairs.gap[rows][:, None]
+        return np.asarray(moved + pairs.compliance[:, rows].ravel()[:, None] * seen.forces)
 
     def _on_contact(self, system: InterfaceSystem, forces: Array) -> Array:
         """(m, p) Loads on the contact dofs that forces (d a, p) of the pairs are otherwise."""
-        nodal = self.pairs.on_bodies(system, forces)
-        return np.asarray(self.prepared.constraints.on_free(nodal)[system.condensed.dofs])
+        return np.asarray(self._on_dofs(system).T @ forces)
+
+    def _on_dofs(self, system: InterfaceSystem) -> sp.csr_array:
+        """(d a, m) What the modulus changes of the motions of the active pairs per displacement of the contact dofs."""
+        if system not in self._seen:
+            rows = np.flatnonzero(np.tile(system.condensed.active, system.directions))
+            T = self.prepared.constraints.transform[:, system.condensed.dofs]
+            self._seen[system] = sp.csr_array(self.pairs.B[rows] @ T)
+        return self._seen[system]
+
+    @cached_property
+    def _seen(self) -> dict[InterfaceSystem, sp.csr_array]:
+        """Of systems so far, see `_on_dofs`."""
+        return {}
 
     def _own(self, system: InterfaceSystem) -> BoolArray:
         """(m,) Contact dofs of the body."""
