@@ -32,7 +32,7 @@ from signorini.law.states import OPEN
 from signorini.solution.state import LoadPoint, State
 
 _NOT_MISSED = 1e-13  # of the largest force in the bodies: what rounding may take from equilibrium
-_LARGEST_SHARE = 1e-3  # of the normal forces: what a force along the way that balances energies may be
+_LARGEST_SHARE = 1e-3  # of friction: what a force along the way that balances energies may be
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,12 +45,14 @@ class Way:
     forces : (d, n) of the pairs, in the mean
     slides : (n,) pairs of contacts that slide far
     ahead : length of the next stride, of its own
+    least : length that pairs slide in the mean where sides slide over each other
     """
 
     moved: Array
     forces: Array
     slides: BoolArray
     ahead: float
+    least: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -119,6 +121,8 @@ class Handover:
     def balanced(self, interface: Interface, way: Way, opened: Array, owed: float) -> Handover:
         """With a force along the way that does the work that the change of pairs has set free, and will.
 
+        It is in proportion to friction, without friction to the pressures; there is none where sides roll.
+
         Parameters
         ----------
         interface : of the stride, its pairs
@@ -129,10 +133,13 @@ class Handover:
         along = (interface.B @ way.moved).reshape(way.forces.shape)
         along[:, ~way.slides] = along[0] = 0.0
         length = np.linalg.norm(along, axis=0)
-        force = way.forces[0] * np.divide(along, length, out=np.zeros_like(along), where=length > 0.0)
-        work = 0.5 * (1.0 + way.ahead) * float((force * along).sum())
-        if work <= 0.0:
+        pressed = np.maximum(way.forces[0], 0.0)
+        friction = np.minimum(interface.most(pressed), pressed)
+        size = friction if friction.any() else pressed
+        if size @ length <= way.least * size.sum():
             return self
+        force = size * np.divide(along, length, out=np.zeros_like(along), where=length > 0.0)
+        work = 0.5 * (1.0 + way.ahead) * float(size @ length)
         freed = float(way.forces[0] @ opened) - 0.5 * float((self.fading + self.growing) @ way.moved)
         share = np.clip((owed + freed) / work, -_LARGEST_SHARE, _LARGEST_SHARE)
         return replace(self, growing=self.growing + share * interface.on_bodies(force))

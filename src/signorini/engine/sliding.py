@@ -39,7 +39,7 @@ _TURN = 0.1  # radians: what a body turns by in a stride at most, for loads keep
 _BLIND = 0.25  # strides: one with the pairs of its beginning that turns out longer is gone again with those of its end
 _OVER = 1.5  # strides: one that turns out longer is gone again
 _LAST = 1.0 / 64.0  # of what is left of a part: its last stride, which has the pairs of its end
-_LEAST_WAY = 1e-2  # strides: a pair that slides less, as where sides roll, has no direction
+_STAYS = 0.01  # strides: a part in which sides move more is gone again with the pairs of its end, too
 _MISSED = 0.05  # strides: one that ends farther from where it was expected to is gone again from what it has shown
 _AGAIN = 3  # times in a row at most that is done: where pairs begin to slip what is expected may not settle
 _GROWTH = 2.0  # of a stride over the one before it, in load
@@ -283,7 +283,7 @@ def _in_strides(part: StepPart, follow: Follow, lost: Array | None, strides: lis
     first = len(behind)
     rest, share = part, first_share(part.prepared, part.before.point, part.end, walk.limit)
     rate, begin = np.zeros(len(part.before.displacement)), walk.begin()
-    least, known = _LEAST_WAY * walk.limit, None
+    known: Array | None = None
     tries, ends = 0, False
     while True:
         shortened = share >= 1.0 and rate.any() and not ends
@@ -291,7 +291,7 @@ def _in_strides(part: StepPart, follow: Follow, lost: Array | None, strides: lis
         now = rest if whole else rest.cut(1.0 - _LAST if shortened else share, "handover")
         length = now.interval.high - now.interval.low
         ahead = 0.0 if whole else _LAST if shortened else 1.0
-        plan = StridePlan(now=now, begin=begin, expected=length * rate, ahead=ahead, last=known, least=least)
+        plan = StridePlan(now=now, begin=begin, expected=length * rate, ahead=ahead, last=known, limit=walk.limit)
         try:
             stride = walk.stride(plan, behind[-1] if behind[first:] else None)
         except (SolveFailed, KeyboardInterrupt) as stop:
@@ -303,6 +303,9 @@ def _in_strides(part: StepPart, follow: Follow, lost: Array | None, strides: lis
         rate = stride.moved / (length or 1.0)
         if stride.slid > (_BLIND if plan.blind else _OVER):
             share, known, ends = share / ceil(stride.slid), None, False
+            continue
+        if plan.blind and whole and stride.missed > _STAYS:
+            ends = True
             continue
         if not plan.blind and stride.missed > _MISSED and tries < _AGAIN:
             tries += 1

@@ -15,6 +15,9 @@ from signorini.engine.stride_pairs import Pairing
 from signorini.interface.mean_pairs import MeanPairs
 from signorini.interface.sliding import sliding_pairs
 
+_LEAST_WAY = 0.1  # strides: a pair that slides less, as where sides roll, has no direction to tilt its normals along
+_SLIDES = 0.1  # strides: in the mean of the pairs, where sides slide and do not only creep
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class StridePlan:
@@ -27,7 +30,7 @@ class StridePlan:
     expected : (dofs,) displacement in it; 0 where nothing is known of it, and pairs are those of its beginning
     ahead : length of the next stride, of its own; 0: it ends the part, and has the pairs of its end
     last : (d, n) forces at its end, known from having gone it before
-    least : length; a pair that slides less has no way that its normals could be tilted along
+    limit : a stride, length
     """
 
     now: StepPart
@@ -35,7 +38,7 @@ class StridePlan:
     expected: Array
     ahead: float = 0.0
     last: Array | None = None
-    least: float = 0.0
+    limit: float = 0.0
 
     @property
     def blind(self) -> bool:
@@ -60,7 +63,7 @@ class StridePlan:
             return MeanPairs(interface=interface, rest=sp.csr_array(interface.B.shape))
         was = state.gap - interface.give(state.forces, state.borne)[0]
         opened = np.where(known, interface.gap + beyond - was, np.nan)
-        return MeanPairs.between(self.begin.interface, interface, self.expected, opened, least=self.least)
+        return MeanPairs.between(self.begin.interface, interface, self.expected, opened, least=_LEAST_WAY * self.limit)
 
     def grown(self, handover: Handover, pairs: MeanPairs, end: Pairing, opened: Array, owed: float) -> Handover:
         """What hands over, with the forces that grow in it.
@@ -81,5 +84,5 @@ class StridePlan:
             handover = handover.towards(sp.csr_array(end.interface.B - pairs.interface.B), self.last)
             mean = 0.5 * (forces + self.last)
         slides = sliding_pairs(self.now.prepared.model, end.interface)
-        way = Way(moved=self.expected, forces=mean, slides=slides, ahead=self.ahead)
+        way = Way(moved=self.expected, forces=mean, slides=slides, ahead=self.ahead, least=_SLIDES * self.limit)
         return handover.balanced(pairs.interface, way, opened, owed)
