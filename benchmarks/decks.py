@@ -47,7 +47,7 @@ _WHY = {
     **dict.fromkeys(("ring1", "ring2"), f"{_LARGE}; {_WEDGE}"),
     **dict.fromkeys(("cubespring", "friction1"), _FOLLOWS),
     "contact2": f"{_LARGE} alone",
-    "fricloop": _LARGE,
+    "fricloop": "increments of CalculiX: pairs lag behind by one, see [there](#large-displacements)",
     "punch1": "a curved punch of 3 x 3 quadratic faces that touches a few nodes: far from finer meshes in both",
     "plate": "reduced integration; one quadratic edge in contact",
     "thread": "quadratic edges in contact and tied, of which one ends inside another; not taken apart further",
