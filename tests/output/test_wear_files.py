@@ -43,6 +43,7 @@ def test_every_file_says_what_is_worn(run):
     bodies = meshio.read(sorted(out.glob("*.vtu"))[-1])
     assert bodies.point_data["worn_depth"].max() == max(wear.deepest)
     assert "worn: contact: " in history_table(solution)
+    assert f"slid by up to {summary['contacts'][0]['wear']['max_distance']:.5g}" in history_table(solution)
     assert any("debris neither carries nor rubs" in note for note in solution.last.notes)
 
 

@@ -138,14 +138,14 @@ def _flow_lines(step: StepResult) -> Iterator[str]:
 
 
 def _wear_lines(step: StepResult) -> Iterator[str]:
-    """How deep the sides of every contact are worn."""
+    """How deep the sides of every contact are worn, k int p ds, and the way slid that a nominal k P s counts as s."""
     for contact in step.contacts:
         if contact.wear is None:
             continue
         (depth, mortar_depth), (volume, mortar_volume) = contact.wear.deepest, contact.wear.volume
         yield (
             f"worn: {contact.name}: {contact.nonmortar} by up to {depth:.5g}, volume {volume:.5g}; {contact.mortar} by "
-            f"up to {mortar_depth:.5g}, volume {mortar_volume:.5g}"
+            f"up to {mortar_depth:.5g}, volume {mortar_volume:.5g}; slid by up to {contact.wear.distance.max():.5g}"
         )
 
 
