@@ -188,7 +188,7 @@ def course(
 def left_shear(prepared: Prepared, state: State) -> BoolArray:
     """(n,) Bonds at their strength, or open, with forces along the sides that they no longer bear."""
     cohesion, bonds = bonds_of(prepared, state)
-    full = cohesion.holds(bonds) & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most)
+    full = cohesion.holds(bonds) & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most) & (cohesion.opening > 0.0)
     opens = (bonds.damage > 0.0) & (bonds.damage < 1.0) & (state.gap > _CLOSED * cohesion.opening)
     along = np.abs(state.forces[1:]).max(axis=0)
     return np.asarray((full | opens) & (along > _AT_LIMIT * cohesion.most))
