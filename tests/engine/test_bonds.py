@@ -240,3 +240,47 @@ def test_a_deck_says_it_and_an_archive_keeps_it(tmp_path):
     assert again.model.contacts[0].cohesion == model.contacts[0].cohesion
     assert np.array_equal(again.steps[0].contacts[0].damage, solution.steps[0].contacts[0].damage)
     assert (again.steps[0].contacts[0].damage > 0.0).any()
+
+
+def drawn_anyhow(seed):
+    """A block on a plane or on another, bonded in a random way, drawn and pushed to and fro five times."""
+    draw = np.random.default_rng(seed)
+    cells, kind = int(draw.integers(2, 7)), str(draw.choice(["plane strain", "plane stress", "axisymmetric"]))
+    upper = sg.rectangle(width=2.0, height=float(draw.choice([0.3, 1.0])), nx=cells, ny=2)
+    modulus, opening = 10 ** draw.uniform(2, 4), float(draw.choice([0.0, 10 ** draw.uniform(-4, -1)]))
+    two = draw.random() < 0.4
+    bond = sg.Cohesion(5.0, opening=opening, shear=str(draw.choice(["held", "free"])))
+    friction, compliance = float(draw.choice([0.0, 0.3, 1.0])), float(draw.choice([0.0, 1e-3]))
+    mesh, part, other = upper, "", sg.Plane((0, 0), (0, 1))
+    moduli, supports = {"block": modulus}, []
+    if two:
+        lower = sg.rectangle(width=2.0, height=0.5, nx=int(draw.integers(2, 7)), ny=2, origin=(0, -0.5))
+        mesh, part, other = sg.join({"upper": upper, "lower": lower}), "upper.", "lower.top"
+        moduli, supports = {"upper": modulus, "lower": 2.0 * modulus}, [sg.Support("lower.bottom", u=(0, 0))]
+    side = (0, float(draw.uniform(-3, 3))) if kind == "axisymmetric" else (float(draw.uniform(-3, 3)), 0)
+    size = 5.0 / modulus + opening + 5.0 * compliance
+    return sg.Model(
+        mesh,
+        kind=kind,
+        bodies=[sg.Body(name, sg.Elastic(E=E, nu=0.3)) for name, E in moduli.items()],
+        supports=[*supports, sg.Support(f"{part}top", u=(0, size), name="pull")],
+        loads=[sg.Load(f"{part}left", traction=side, name="side")],
+        contacts=[
+            sg.Contact(
+                f"{part}bottom", other, cohesion=bond, friction=friction, normal_compliance=compliance, name="bond"
+            )
+        ],
+        steps=[
+            sg.Step(scale={"pull": float(draw.uniform(-0.5, 2.5)), "side": float(draw.uniform(-1, 1))})
+            for _ in range(5)
+        ],
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [3, 26, 45, 50])
+def test_bonds_drawn_anyhow_are_followed_to_the_end(seed):
+    """Of a hundred that were; these once were not."""
+    for step in sg.solve(drawn_anyhow(seed)).steps:
+        assert step.certificate.passed
+        assert abs(step.energy_defect) < 1e-12

@@ -41,6 +41,8 @@ _JUMPS = 100
 """Of bonds at one load, one after the other, at most."""
 
 _AT_ONCE = 1e-12  # part of the way: what ends within it should not have begun so
+_STEEP = 1e-4  # of the strength over the opening: a line steeper than its inverse magnifies the rounding of openings
+_MOST_ROUNDED = 100.0  # times the width: what steep lines may be off
 _WIDTH = 1e-8  # of the strength, or of the opening: how far off its line a bond may be
 
 BREAKS = (
@@ -152,6 +154,7 @@ class _Watch:
         edge = np.where(posed.soft, 1.0, bonds.damage)
         soft, falls = posed.springs, cohesion.opening > 0.0
         begun = (bonds.damage > 0.0) & (bonds.damage < 1.0) & ~soft & ~posed.driven
+        rounding = np.clip(_STEEP * np.abs(self.lines) * opening / np.where(most > 0.0, most, 1.0), 1.0, _MOST_ROUNDED)
         line = np.where(posed.soft, most, 0.0) + self.lines * gap
         return np.array(
             [
@@ -163,7 +166,7 @@ class _Watch:
                     -1.0,
                 ),
                 np.where(begun, gap / opening, -1.0),
-                np.where(soft, np.abs(tension - line) / np.where(most > 0.0, most, 1.0), -1.0),
+                np.where(soft, np.abs(tension - line) / np.where(most > 0.0, most, 1.0) / rounding, -1.0),
             ]
         )
 

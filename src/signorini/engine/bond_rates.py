@@ -151,7 +151,8 @@ def course(
     codes : (a,) states of the active pairs from here on, where they are known; as the state says where not
     """
     cohesion, bonds = bonds_of(prepared, state)
-    soft, none = sheared & ~driven & (bonds.damage < 1.0), np.zeros_like(driven)
+    full = cohesion.holds(bonds) & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most)
+    soft, none = sheared & ~driven & full, np.zeros_like(driven)
     for trial in range(_TRIALS):
         posed = pose(prepared, state, soft, driven, sheared, codes)
         start = path_state(posed.prepared, posed.state)
