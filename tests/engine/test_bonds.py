@@ -283,4 +283,4 @@ def test_bonds_drawn_anyhow_are_followed_to_the_end(seed):
     """Of a hundred that were; these once were not."""
     for step in sg.solve(drawn_anyhow(seed)).steps:
         assert step.certificate.passed
-        assert abs(step.energy_defect) < 1e-12
+        assert abs(step.energy_defect) < 1e-10 * (abs(step.work) + step.strain_energy + step.dissipation)

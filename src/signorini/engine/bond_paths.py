@@ -41,7 +41,9 @@ _JUMPS = 100
 """Of bonds at one load, one after the other, at most."""
 
 _AT_ONCE = 1e-12  # part of the way: what ends within it should not have begun so
-_STEEP = 1e-4  # of the strength over the opening: a line steeper than its inverse magnifies the rounding of openings
+_STEEPNESS_WIDTH = (
+    1e-4  # of the strength over the opening: a line steeper than its inverse magnifies the rounding of openings
+)
 _MOST_ROUNDED = 100.0  # times the width: what steep lines may be off
 _WIDTH = 1e-8  # of the strength, or of the opening: how far off its line a bond may be
 
@@ -154,7 +156,9 @@ class _Watch:
         edge = np.where(posed.soft, 1.0, bonds.damage)
         soft, falls = posed.springs, cohesion.opening > 0.0
         begun = (bonds.damage > 0.0) & (bonds.damage < 1.0) & ~soft & ~posed.driven
-        rounding = np.clip(_STEEP * np.abs(self.lines) * opening / np.where(most > 0.0, most, 1.0), 1.0, _MOST_ROUNDED)
+        rounding = np.clip(
+            _STEEPNESS_WIDTH * np.abs(self.lines) * opening / np.where(most > 0.0, most, 1.0), 1.0, _MOST_ROUNDED
+        )
         line = np.where(posed.soft, most, 0.0) + self.lines * gap
         return np.array(
             [
