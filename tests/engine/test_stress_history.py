@@ -140,9 +140,11 @@ def test_bodies_that_yield_need_their_displacements():
 @pytest.mark.slow
 def test_sides_that_slide_far_need_their_displacements():
     model = sg.read(Path(__file__).parents[2] / "examples" / "block_over_edge.toml")
-    with pytest.raises(sg.InputError, match="depend on pairs that follow the bodies"):
-        sg.solve(model).stress_history()
     solution = sg.solve(replace(model, steps=[replace(step, at="events") for step in model.steps]))
+    light = [tuple(replace(instant, displacement=None) for instant in step.instants) for step in solution.steps]
+    steps = tuple(replace(step, instants=own) for step, own in zip(solution.steps, light, strict=True))
+    with pytest.raises(sg.InputError, match="depend on pairs that follow the bodies"):
+        replace(solution, steps=steps).stress_history()
     history = solution.stress_history()
     body = history.bodies[0]
     last = solution.stress(body)

@@ -8,7 +8,6 @@ import pytest
 import signorini as sg
 from signorini.fem.mass import mass_matrix
 from signorini.fem.space import make_space
-from signorini.gallery.sectors import ring_on_shaft
 from signorini.vibration import eigen
 from tests.helpers.families import FAMILIES, KINDS, MIXED, block
 
@@ -256,15 +255,6 @@ def test_what_has_no_modes_is_named(ask, words):
     with pytest.raises(sg.InputError) as error:
         ask()
     assert str(error.value) == words
-
-
-def test_modes_of_a_sector_are_among_those_of_the_whole():
-    """Those that are the same in every sector; where its sides cut a joint, too."""
-    whole, sector = (sg.solve(ring_on_shaft(whole=every)) for every in (True, False))
-    for joint in ("stuck", "slipping"):
-        every, own = (sg.natural_modes(of, k, joint=joint) for of, k in ((whole, 24), (sector, 3)))
-        apart = np.abs(every.squares - own.squares[:, None]).min(axis=1)
-        assert apart == pytest.approx(0.0, abs=1e-9 * every.squares[-1])
 
 
 def test_sides_that_slide_far_are_refused():
