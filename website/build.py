@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 from signorini.deck.schema import deck_schema
-from website import reference
+from website import gallery, reference
 
 ROOT = Path(__file__).parents[1]
 SETTINGS = ROOT / "website" / "zensical.toml"
@@ -43,6 +43,7 @@ NAVIGATION: dict[str, list[str]] = {
             "choosing_an_lcp_method.md",
         ),
     ],
+    "Gallery": ["gallery.md"],
     "Theory": ["theory.md", "method.md", "robust_friction.md", "budgets.md"],
     "Evidence": ["verification.md", "performance.md", "lcp_benchmark.md"],
     "Reference": [],
@@ -61,6 +62,7 @@ def collect(folder: Path) -> dict[str, list[str]]:
     for page in folder.rglob("*.md"):
         page.write_text(inside(page.read_text()))
     (folder / "examples" / "deck.schema.json").write_text(json.dumps(deck_schema(), indent=1))
+    gallery.write_notebooks(folder / "notebooks")
     (folder / "reference").mkdir()
     for name, text in reference.pages().items():
         (folder / "reference" / name).write_text(text)
