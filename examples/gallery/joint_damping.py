@@ -12,6 +12,7 @@ from signorini.gallery.vibrating import bar_in_a_bed
 
 model, exact = bar_in_a_bed(24)
 solution = sg.solve(model)
+print(solution)
 shares = (0.2, 0.4, 0.6, 0.8)
 damping = sg.joint_damping(solution, [exact.amplitude(share) for share in shares], cycles=1)
 print(damping)
