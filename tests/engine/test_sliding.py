@@ -154,6 +154,7 @@ def test_a_wheel_that_is_free_to_turn_rolls() -> None:
     drag = solution.steps[-1]
     normal, tangential = of_contact(drag.instants[-1])
     assert abs(tangential) < 1e-3 * 0.3 * normal
+    assert abs(drag.released) < 5e-6 * 0.3 * 10.0 * 0.6
     assert drag.obstacles["wheel"].rotation * 10.0 / -0.6 == pytest.approx(0.992, abs=0.002)
     contact = drag.instants[-1].contacts[0]
     assert float(contact.points[:, 0] @ (contact.pressure * contact.area)) / normal == pytest.approx(0.6, abs=0.01)
