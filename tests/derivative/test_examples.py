@@ -24,9 +24,9 @@ def test_friction_and_modulus_are_found_from_a_loop():
     fit = example("fit_friction")
     model, outputs = fit.loop(3)
     function = sg.prepare(model).function(["friction.contact", "E.specimen"], outputs)
-    found = fit.fit(function, function.values(fit.TRUE), start=1.01 * fit.TRUE, tolerance=1e-3)
+    found = fit.fit(function, function.values(fit.TRUE), start=1.01 * fit.TRUE, tolerance=1e-5)
     assert found.found == pytest.approx(fit.TRUE, rel=1e-5)
-    assert found.solves <= 3
+    assert found.solves <= 4
 
 
 def test_a_punch_is_levelled_to_the_profile_of_a_half_plane():
