@@ -244,6 +244,7 @@ def _spent(segment: Segment) -> float:
 
 
 def _plain(track: Track) -> bool:
-    """Whether its pairs obey Coulomb's law alone."""
+    """Whether its pairs obey Coulomb's law alone; in space, where symmetry guides some, increments know these."""
     law = track.prepared.paths.law
-    return law.straight and law.pieces.branches == 1 and not law.pieces.starts.any() and not law.guided
+    free = law.directions == 3 or not law.guided
+    return law.straight and law.pieces.branches == 1 and not law.pieces.starts.any() and free

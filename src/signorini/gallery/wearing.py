@@ -109,6 +109,8 @@ def to_and_fro(cycles: int, **options: object) -> list[Step]:
 def block_in_space(steps: Sequence[Step], *, wear: Wear, stroke: float, modulus: float) -> Model:
     """A block, 1 by 0.4 by 0.5, under a force of 1 ("press") on a bed along which it is driven ("drive"), mu 0.3.
 
+    Half of one, with a plane of symmetry along its way.
+
     Parameters
     ----------
     steps : the history
@@ -126,6 +128,7 @@ def block_in_space(steps: Sequence[Step], *, wear: Wear, stroke: float, modulus:
         supports=[
             Support("bed.bottom", u=(0.0, 0.0, 0.0)),
             Support("top.top", u=(stroke, 0.0, None), name="drive"),
+            *(Support(f"{body}.front", u=(None, 0.0, None), name=f"symmetry of {body}") for body in ("top", "bed")),
         ],
         loads=[Load("top.top", force=(None, None, -1.0), spread="displacement", name="press")],
         contacts=[Contact("top.bottom", "bed.top", friction=0.3, sliding="finite", wear=wear, name="sole")],
