@@ -12,6 +12,7 @@ from signorini.cli.main import main
 from signorini.gallery import coarse
 from signorini.plot.accuracy import draw_accuracy
 from signorini.plot.picture_data import PictureData
+from signorini.report.page import report
 
 hertz, cylinder = coarse.hertz_line, coarse.cylinder
 E, NU = coarse.SOFT.E, coarse.SOFT.nu
@@ -145,6 +146,13 @@ def test_what_is_not_met_is_told(tmp_path):
     assert "accuracy 0.001 of the pressure NOT met: the next mesh has" in str(solution)
     solution.write(tmp_path / "solution.h5")
     assert sg.load(tmp_path / "solution.h5").accuracy.levels == found.levels
+
+
+def test_a_report_tells_the_accuracy():
+    words = report(sg.solve(cylinder(), accuracy=0.1))
+    assert '<section id="accuracy">' in words
+    assert "accuracy 0.1 of the pressure met" in words
+    assert "shares of the elements in the error of the stresses" in words
 
 
 @pytest.mark.parametrize(

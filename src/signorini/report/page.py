@@ -15,7 +15,8 @@ from signorini.errors import InputError
 from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
 from signorini.output.fields import Fields
-from signorini.output.table import history_table, spell_vector
+from signorini.output.table import accuracy_lines, history_table, spell_vector
+from signorini.plot.accuracy import draw_accuracy
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
 from signorini.plot.field import draw_stress
@@ -40,6 +41,7 @@ from signorini.report.words import (
     support_words,
     verdict,
 )
+from signorini.solution.accuracy import AccuracyResult
 from signorini.solution.history import PHASES, History
 
 _MOST_EVENTS = 200  # in the list of a page; history.csv has all
@@ -114,6 +116,8 @@ def _sections(history: History, fields: Fields | None) -> Iterator[tuple[str, st
     data = PictureData(history, fields)
     yield "Results", _results(history)
     yield "Certificate", _certificate(history)
+    if history.accuracy is not None:
+        yield "Accuracy", _accuracy(data, history.accuracy)
     if notes := list(dict.fromkeys(note for step in history.steps for note in step.notes)):
         yield "Notes", listed([said(note) for note in notes])
     along = [] if data.solid else list(profiles(data))
@@ -131,6 +135,22 @@ def _sections(history: History, fields: Fields | None) -> Iterator[tuple[str, st
     if events := _events(history):
         yield "Events", events
     yield "Time", _time(history)
+
+
+def _accuracy(data: PictureData, found: AccuracyResult) -> str:
+    """Estimated errors in words, the meshes that were tried, and where the errors are."""
+    levels = [
+        (
+            f"{level.nodes}",
+            f"{level.pairs}",
+            *(f"{error:.2%}" for error in (level.pressure, level.traction, level.energy)),
+        )
+        for level in found.levels
+    ]
+    head = ("nodes", "pairs that touch", "pressure", "with friction", "stresses")
+    meshes = table([head, *levels], caption="Meshes that were tried, with their estimated errors") if levels else ""
+    picture = _picture(draw_accuracy(data), "shares of the elements in the error of the stresses", data.units)
+    return listed([said(line) for line in accuracy_lines(found)]) + meshes + picture
 
 
 def _problem(model: Model) -> str:
