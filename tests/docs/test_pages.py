@@ -54,6 +54,8 @@ LONG = ("docs/fatigue.md:", "docs/modes.md:", "docs/howto/sweeps.md:")  # pages 
     "place", [pytest.param(place, marks=[pytest.mark.slow] * place.startswith(LONG)) for place in BLOCKS]
 )
 def test_python_code_runs(place, tmp_path):
+    if ".geo" in BLOCKS[place]:
+        pytest.importorskip("gmsh")
     names = dict(GIVEN)
     exec(compile(BLOCKS[place], place, "exec"), names)
     for file in re.findall(r'(?:write|savefig)\("(.+?)"\)', BLOCKS[place]):

@@ -140,6 +140,8 @@ def _refined(model: Model, request: Accuracy, solve: Callable[[Model], History])
         if not met:
             posed = meshes.next(_marked(found.squares))
             reason = _end(request, len(posed.mesh.points), time.perf_counter() - start, len(levels))
+            if reason and len(levels) == 1 and found.of(request.of) <= request.error:
+                reason = f"it is estimated on one mesh alone: {reason}"
         known = replace(history, accuracy=_result(found, tuple(levels), request, reason, meshes.notes))
         if met or reason:
             return known

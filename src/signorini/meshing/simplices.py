@@ -80,7 +80,7 @@ class Simplices:
         >>> from signorini.meshing.plane import rectangle
         >>> simplices = Simplices.of(rectangle(nx=2))
         >>> simplices.cells.shape, simplices.refined([0]).cells.shape
-        ((4, 3), (7, 3))
+        ((4, 3), (13, 3))
         """
         points, d = mesh.points, mesh.points.shape[1]
         inside = among(mesh.cells.values(), len(points))

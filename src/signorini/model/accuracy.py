@@ -39,7 +39,7 @@ class Accuracy:
     --------
     >>> Accuracy(0.01).of
     'pressure'
-    >>> Accuracy(-1.0)
+    >>> Accuracy(-1)
     Traceback (most recent call last):
     signorini.errors.InputError: error: is -1; expected a number > 0
     """
