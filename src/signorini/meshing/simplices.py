@@ -111,7 +111,7 @@ class Simplices:
         )
 
     def refined(self, marked: Iterable[int] | IntArray, curves: Mapping[str, Curve] | None = None) -> Simplices:
-        """Every edge of the marked simplices halved, and of others what keeps the mesh conforming.
+        """Every edge of marked triangles halved, of tetrahedra the longest, and what keeps the mesh conforming.
 
         A simplex is only ever bisected at its longest edge (of equally long ones at that of the larger numbers), so
         that what neighbours share is cut alike.
@@ -129,7 +129,9 @@ class Simplices:
         halves = _Halves(self)
         cells, origin = self.cells, np.arange(len(self.cells))
         boundaries = dict(self.boundaries)
-        halves.halve(_edge_keys(cells[np.asarray(marked, dtype=np.int64)]).ravel(), boundaries, curves)
+        own = cells[np.asarray(marked, dtype=np.int64)]
+        first = _edge_keys(own).ravel() if cells.shape[1] == 3 else halves.longest_edges(own)
+        halves.halve(first, boundaries, curves)
         while True:
             asked, longest = halves.longest(cells)
             if not asked.any():
@@ -226,8 +228,6 @@ class _Halves:
         """
         keys = distinct(keys)
         keys = keys[self.corner(keys) < 0]
-        if not len(keys):
-            return
         ends = np.column_stack([keys >> _SHIFT, keys & ((1 << _SHIFT) - 1)])
         bend = _bend(self.bends, keys)
         at = self.points[ends].mean(axis=1) + bend
@@ -256,11 +256,15 @@ class _Halves:
         keys = _edge_keys(simplices)
         asked: BoolArray = np.asarray((self.corner(keys) >= 0).any(axis=1))
         longest = np.full(len(keys), -1)
-        own = keys[asked]
-        ends = self.points[own >> _SHIFT] - self.points[own & ((1 << _SHIFT) - 1)]
-        length = np.einsum("mei,mei->me", ends, ends)
-        longest[asked] = np.where(length == length.max(axis=1, keepdims=True), own, -1).max(axis=1)
+        longest[asked] = self.longest_edges(simplices[asked])
         return asked, longest
+
+    def longest_edges(self, simplices: IntArray) -> IntArray:
+        """(m,) Keys of the longest edges; of equally long ones that with the larger numbers."""
+        keys = _edge_keys(simplices)
+        ends = self.points[keys >> _SHIFT] - self.points[keys & ((1 << _SHIFT) - 1)]
+        length = np.einsum("mei,mei->me", ends, ends)
+        return np.asarray(np.where(length == length.max(axis=1, keepdims=True), keys, -1).max(axis=1))
 
     def bisected(self, simplices: IntArray, asked: BoolArray) -> tuple[IntArray, IntArray]:
         """Simplices with those asked for in halves, and the simplex that each comes from."""
