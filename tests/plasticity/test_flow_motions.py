@@ -12,6 +12,7 @@ from signorini.engine.increment import Mechanism
 from signorini.engine.prepare import prepare
 from signorini.fem.locking import modes_in_flow
 from signorini.plasticity.volume import flow_strains, volume_rows
+from signorini.verify.footings import IN_SPACE
 from tests.helpers.columns import ELASTIC, Y
 
 HARDENING = sg.Elastic(E=200.0, nu=0.3, plastic=sg.Plastic(Y, hardening=20.0))
@@ -75,6 +76,16 @@ def test_a_uniform_dilatation_is_measured_exactly(cells, kind, formulation):
     trace = {"plane strain": 3.0, "axisymmetric": 2.0, "3d": 6.0, "plane stress": 0.0}[kind]
     volume = bodies.weights.sum()
     assert np.sum((volume_rows(bodies) @ v.ravel()) ** 2) == pytest.approx(trace**2 * volume, rel=1e-12)
+
+
+def test_rules_with_points_that_count_negative():
+    """Of linear wedges, among hexahedra around an axis."""
+    (punched,) = (one for one in IN_SPACE if one.cells == "hexahedron and wedge")
+    prepared = prepare(punched.model(1.0))
+    bodies, points = prepared.yielding, prepared.model.mesh.points
+    assert bodies.weights.min() < 0.0
+    v = points * np.arange(1.0, 4.0)
+    assert np.sum((volume_rows(bodies) @ v.ravel()) ** 2) == pytest.approx(36.0 * bodies.weights.sum(), rel=1e-12)
 
 
 @pytest.mark.parametrize("kind", ["plane strain", "axisymmetric", "3d"])

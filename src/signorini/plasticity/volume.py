@@ -18,8 +18,9 @@ _FLOWING = 1e4  # of the strain of first yield: so far on the elastic part is li
 def volume_rows(bodies: YieldingBodies) -> sp.csr_array:
     """A, (rows, dofs): ``|A v|^2`` is the integral of the square of the volume strain of a motion v (dofs,).
 
-    With a mean dilatation it is the projected one, with internal modes what is left where they keep as much of the
-    volume as they can. None in plane stress, where the thickness gives way.
+    Where a rule has negative weights, that of their sizes: it is 0 for the same motions. With a mean dilatation it
+    is the projected one, with internal modes what is left where they keep as much of the volume as they can. None
+    in plane stress, where the thickness gives way.
     """
     d, dofs = bodies.space.components, bodies.space.number_of_dofs
     found = [sp.csr_array((0, dofs))]
@@ -61,11 +62,14 @@ def flow_strains(bodies: YieldingBodies, v: Array, heat: Heat) -> Array:
 
 def _rows_of_cells(group: PointGroup, components: int) -> Array:
     """(m, rows, k d) The rows of every cell."""
-    size = np.sqrt(group.weights)[:, :, None]
-    rows = size * _trace(group.gradients, components)
+    trace = _trace(group.gradients, components)
     if group.group.formulation == "mean dilatation":
-        functions = size * group.group.block.pressures
-        return np.asarray(np.linalg.qr(functions)[0].swapaxes(1, 2) @ rows)
+        functions = group.group.block.pressures
+        weighted = group.weights[:, :, None] * functions
+        root = np.linalg.cholesky(functions.T @ weighted)
+        return np.asarray(np.linalg.solve(root, weighted.swapaxes(1, 2) @ trace))
+    size = np.sqrt(np.abs(group.weights))[:, :, None]  # the rule of wedges has points that count negative
+    rows = size * trace
     if group.internal:
         of_modes = size * _trace(group.modes.gradients, components)
         return np.asarray(rows - of_modes @ (np.linalg.pinv(of_modes) @ rows))
