@@ -137,6 +137,15 @@ def test_an_estimate_refines_nothing():
     assert sg.solve(model).accuracy is None
 
 
+def test_repeated_steps_lack_no_more():
+    """The same end three times: errors are those of one."""
+    model = hertz()
+    again = replace(model, steps=[sg.Step(name=f"step {k}") for k in range(3)])
+    once, thrice = (sg.solve(one, accuracy="estimate").accuracy for one in (model, again))
+    assert thrice.energy == pytest.approx(once.energy, rel=1e-9)
+    assert thrice.pressure == pytest.approx(once.pressure, rel=1e-9)
+
+
 def test_what_is_not_met_is_told(tmp_path):
     solution = sg.solve(hertz(), accuracy=sg.Accuracy(0.001, nodes=1000))
     found = solution.accuracy

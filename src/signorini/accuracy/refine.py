@@ -45,8 +45,8 @@ class Estimate:
 
     Attributes
     ----------
-    pressure, traction, energy : relative
-    squares : (m,) of the energy norm of every cell, of all steps together, over the largest norm of a step
+    pressure, traction, energy : relative, of the step where each is largest
+    squares : (m,) of the energy norm of every cell, of all steps together, work
     pairs : that touch at the end of the step where most do
     """
 
@@ -72,10 +72,11 @@ def estimate(history: History, before: tuple[Simplices, History] | None = None) 
     model = history.model
     space = make_space(model.mesh, kind=model.kind)
     pressure, friction, scale, pairs = [0.0], [0.0], [0.0], 0
-    squares, norms = np.zeros(model.mesh.number_of_cells), [0.0]
+    squares, lost, norms = np.zeros(model.mesh.number_of_cells), [0.0], [0.0]
     for k, step in enumerate(history.steps):
         stress = stress_error(DeformedBodies.of(space, model, step.displacement, step.factors))
         squares += stress.squares
+        lost.append(float(stress.squares.sum()))
         norms.append(stress.norm_square)
         found = [trace_errors(space, model, step.contacts, stress)]
         if before is not None:
@@ -85,12 +86,11 @@ def estimate(history: History, before: tuple[Simplices, History] | None = None) 
         scale.append(found[0].scale)
         pairs = max(pairs, sum(int(contact.closed.sum()) for contact in step.contacts))
     size, norm = max(scale), max(norms)
-    squares = squares / norm if norm > 0.0 else squares
     share = LINEAR if _linear(model) else 1.0
     return Estimate(
         pressure=share * _ratio(max(pressure), size),
         traction=share * _ratio(max(friction), size),
-        energy=float(np.sqrt(squares.sum())),
+        energy=float(np.sqrt(max(lost) / norm)) if norm > 0.0 else 0.0,
         squares=squares,
         pairs=pairs,
     )
