@@ -10,32 +10,9 @@ import signorini as sg
 from signorini.cli.main import main
 from signorini.model.modes import STUCK
 from signorini.output.modes_files import write_shapes
+from tests.helpers.bar_deck import BAR_ON_A_FLOOR
 
-BAR = """\
-kind = "plane stress"
-[mesh]
-generator = "rectangle"
-width = 2.0
-height = 0.5
-nx = 8
-ny = 2
-[material.steel]
-E = 100.0
-nu = 0.3
-density = 1.0
-[[body]]
-name = "block"
-material = "steel"
-[[contact]]
-name = "floor"
-nonmortar = "bottom"
-plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }
-friction = 0.4
-[[load]]
-name = "press"
-on = "top"
-pressure = "0.02 + 2*x^2"
-"""
+BAR = BAR_ON_A_FLOOR.replace("pressure = 1.0", 'pressure = "0.02 + 2*x^2"')
 SHAKE = """\
 [[load]]
 name = "shake"

@@ -10,40 +10,12 @@ import signorini as sg
 from signorini.cli.main import main
 from signorini.deck import load_deck
 from signorini.model.modes import JOINTS, ModesRequest
+from tests.helpers.bar_deck import BAR_ON_A_FLOOR
 from tests.helpers.calculix import ccx_frequencies, needs_ccx
 
 BRICKS = sg.box(x=np.linspace(0.0, 4.0, 7), y=[0.0, 0.5, 1.0], z=[0.0, 0.4, 0.8])
 
-BAR = """
-kind = "plane stress"
-
-[mesh]
-generator = "rectangle"
-width = 2.0
-height = 0.5
-nx = 8
-ny = 2
-
-[material.steel]
-E = 100.0
-nu = 0.3
-density = 1.0
-
-[[body]]
-name = "block"
-material = "steel"
-
-[[contact]]
-name = "floor"
-nonmortar = "bottom"
-plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }
-friction = 0.4
-
-[[load]]
-name = "press"
-on = "top"
-pressure = 1.0
-
+BAR = f"""{BAR_ON_A_FLOOR}
 [modes]
 number = 3
 """

@@ -16,7 +16,7 @@ from signorini.fem.kinematics import groups
 from signorini.fem.measure import measure
 from signorini.fem.space import Block, Space, shapes_in_cells
 from signorini.fem.stress import DeformedBodies
-from signorini.meshing.facets import facet_corners
+from signorini.meshing.facets import facet_corners, unshared
 from signorini.model.mesh import CORNERS
 from signorini.model.model import Model
 
@@ -226,11 +226,8 @@ def _skin(space: Space, parts: Sequence[_Cells]) -> list[IntArray]:
     found = []
     for facets in space.facets.values():
         own = np.flatnonzero(inside[facets.cell])
-        same = facets.key[own][1:] == facets.key[own][:-1]
-        alone = np.ones(len(own), bool)
-        alone[1:] &= ~same
-        alone[:-1] &= ~same
-        found.append(facets.nodes[own[alone]][:, : facet_corners(d, facets.nodes.shape[1])])
+        alone = own[unshared(facets.key[own])]
+        found.append(facets.nodes[alone][:, : facet_corners(d, facets.nodes.shape[1])])
     return found
 
 

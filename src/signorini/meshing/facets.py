@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, distinct
+from signorini.arrays import Array, BoolArray, IntArray, distinct
 from signorini.errors import InputError, Where, one_of
 from signorini.model.mesh import CORNERS, FACETS, Mesh
 
@@ -73,6 +73,17 @@ def make_facets(mesh: Mesh) -> dict[int, CellFacets]:
         order = np.argsort(key, kind="stable")
         result[count] = CellFacets(nodes=every[order], cell=cell[order], key=key[order])
     return result
+
+
+def unshared(keys: IntArray) -> BoolArray:
+    """(f,) Whether ascending keys are there once: of facets with one cell.
+
+    >>> unshared(np.array([1, 2, 2, 5])).tolist()
+    [True, False, False, True]
+    """
+    differs = np.concatenate([[True], keys[1:] != keys[:-1], [True]])
+    alone: BoolArray = (differs[1:] & differs[:-1])[: len(keys)]
+    return alone
 
 
 def corner_volumes(points: Array, family: str, cells: IntArray) -> Array:

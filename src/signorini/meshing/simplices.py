@@ -12,32 +12,17 @@ from numpy.typing import NDArray
 
 from signorini.arrays import Array, BoolArray, IntArray, among, distinct
 from signorini.errors import InputError
-from signorini.meshing.facets import facet_corners, make_facets
+from signorini.meshing.facets import facet_corners, make_facets, unshared
 from signorini.meshing.tetrahedra import cone_simplices, triangles_of
-from signorini.model.mesh import CORNERS, NODES_PER_SOLID_CELL, Mesh
+from signorini.model.mesh import CORNERS, EDGES, NODES_PER_SOLID_CELL, Mesh
 
 Curve = Callable[[Array], Array]
 """Of a boundary: the points of its true shape that are nearest to points (k, d), length."""
 
-_EDGES = {2: ((0, 1),), 3: ((0, 1), (1, 2), (2, 0)), 4: ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))}
+_EDGES = {2: ((0, 1),), 3: ((0, 1), (1, 2), (2, 0)), 4: EDGES["tetra10"]}
 """Edges of a simplex by the number of its corners, in the order of its middle nodes."""
 
 _SHIFT = 32  # bits for the number of a node: the key of an edge holds two
-_QUADRATIC_EDGES: Mapping[str, tuple[tuple[int, int], ...]] = {
-    "triangle6": ((0, 1), (1, 2), (2, 0)),
-    "quad8": ((0, 1), (1, 2), (2, 3), (3, 0)),
-    "quad9": ((0, 1), (1, 2), (2, 3), (3, 0)),
-    "tetra10": _EDGES[4],
-    **dict.fromkeys(
-        ("hexahedron20", "hexahedron27"),
-        (
-            *((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4)),
-            *((0, 4), (1, 5), (2, 6), (3, 7)),
-        ),
-    ),
-    "wedge15": ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)),
-}
-"""Corners at the ends of every edge, in the order in which their middle nodes follow the corners."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -325,7 +310,7 @@ def _bends(mesh: Mesh, number: IntArray) -> tuple[IntArray, Array]:
     found, points = [], mesh.points
     bounding = _bounding_edges(mesh)
     for family, cells in mesh.cells.items():
-        for i, (one, other) in enumerate(_QUADRATIC_EDGES.get(family, ())):
+        for i, (one, other) in enumerate(EDGES.get(family, ())):
             ends = cells[:, [one, other]]
             offset = points[cells[:, CORNERS[family] + i]] - points[ends].mean(axis=1)
             length = np.linalg.norm(np.diff(points[ends], axis=1)[:, 0], axis=1)
@@ -342,12 +327,7 @@ def _bounding_edges(mesh: Mesh) -> IntArray:
     """Keys of the edges of named boundaries and of facets with no cell behind them."""
     d, facets = mesh.points.shape[1], make_facets(mesh)
     named = [part for name in mesh.boundaries for part in mesh.facets(name)]
-    for own in facets.values():
-        alone = np.ones(len(own.key), bool)
-        same = own.key[1:] == own.key[:-1]
-        alone[1:] &= ~same
-        alone[:-1] &= ~same
-        named.append(own.nodes[alone])
+    named += [own.nodes[unshared(own.key)] for own in facets.values()]
     keys = []
     for part in named:
         corners = part[:, : facet_corners(d, part.shape[1])]
@@ -366,11 +346,11 @@ def _corners_in(mesh: Mesh, name: str, kept: BoolArray) -> IntArray:
     own = mesh.nodes[name]
     held, covered = among([own], len(mesh.points)), kept.copy()
     for family, cells in mesh.cells.items():
-        for i, (one, other) in enumerate(_QUADRATIC_EDGES.get(family, ())):
+        for i, (one, other) in enumerate(EDGES.get(family, ())):
             whole = held[cells[:, one]] & held[cells[:, other]]
             covered[cells[whole, CORNERS[family] + i]] = True
         if family in NODES_PER_SOLID_CELL or family == "quad9":
-            covered[cells[:, CORNERS[family] + len(_QUADRATIC_EDGES.get(family, ())) :]] = True
+            covered[cells[:, CORNERS[family] + len(EDGES.get(family, ())) :]] = True
     lost = own[~covered[own]]
     if len(lost):
         raise InputError(

@@ -8,10 +8,9 @@ import numpy as np
 from signorini.arrays import IntArray
 from signorini.errors import InputError
 from signorini.meshing.facets import HEXAHEDRON
-from signorini.model.mesh import FACETS, Mesh
+from signorini.model.mesh import EDGES, FACETS, Mesh
 
 _CUT = {"hexahedron": "tetra", "hexahedron27": "tetra10"}
-_EDGES = ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))  # of a tetrahedron, in the order of its middle nodes
 
 
 def tetrahedra(mesh: Mesh) -> Mesh:
@@ -46,7 +45,7 @@ def tetrahedra(mesh: Mesh) -> Mesh:
     corners = np.argmax(cells[owner][:, None, :8] == nodes[:, :, None], axis=2)
     if family == "hexahedron27":
         places = np.array(HEXAHEDRON)
-        middles = np.stack([(places[corners[:, a]] + places[corners[:, b]]) // 2 for a, b in _EDGES], axis=1)
+        middles = np.stack([(places[corners[:, a]] + places[corners[:, b]]) // 2 for a, b in EDGES["tetra10"]], axis=1)
         number = np.empty((3, 3, 3), np.int64)
         number[tuple(places.T)] = np.arange(len(places))
         nodes = np.hstack([nodes, np.take_along_axis(cells[owner], number[tuple(np.moveaxis(middles, 2, 0))], axis=1)])

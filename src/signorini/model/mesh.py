@@ -67,6 +67,20 @@ FACETS: Mapping[str, tuple[tuple[int, ...], ...]] = {
 """Nodes of the facets of cells: of every edge in the plane both ends, anticlockwise, and the middle; of every face of a
 solid, anticlockwise seen from outside, corners, middles of edges, and the middle."""
 
+
+def _edges_of(family: str) -> tuple[tuple[int, int], ...]:
+    """Of a quadratic family, from its facets: corners k and k + 1 of a ring have their middle behind all corners."""
+    found = {}
+    for facet in FACETS[family]:
+        linear = 2 if len(facet) == 3 else len(facet) // 2
+        for k in range(1 if linear == 2 else linear):
+            found[facet[linear + k]] = min(facet[k], facet[(k + 1) % linear]), max(facet[k], facet[(k + 1) % linear])
+    return tuple(found[middle] for middle in sorted(found))
+
+
+EDGES = {family: _edges_of(family) for family in FACETS if NODES_PER_CELL[family] > CORNERS[family]}
+"""Of quadratic families: corners at the ends of every edge, in the order in which their middle nodes follow these."""
+
 _NODES_PER_FACET = {2: (2, 3), 3: (3, 4, 6, 8, 9)}
 
 Facets = IntArray | tuple[IntArray, ...]
