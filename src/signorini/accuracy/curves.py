@@ -7,13 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.spatial import KDTree
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
 from signorini.meshing.facets import facet_corners
-from signorini.meshing.profile import mesh_profile
 from signorini.meshing.simplices import Curve
 from signorini.model.mesh import Mesh
 from signorini.model.obstacle import Obstacle
@@ -81,6 +78,9 @@ class Spline:
     """A smooth line through points of the plane, in order; closed where the last is the first."""
 
     def __init__(self, points: Array, *, closed: bool) -> None:
+        from scipy.interpolate import CubicSpline  # not before a spline is asked for: a tenth of a second
+        from scipy.spatial import KDTree
+
         way = np.vstack([points, points[:1]]) if closed else points
         at = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))])
         self._line = CubicSpline(at, way, bc_type="periodic" if closed else "not-a-knot")
@@ -143,6 +143,8 @@ def _given(mesh: Mesh, name: str, shape: Obstacle | str) -> Curve:
         if d == 3 or len(points) < _SPLINE_NODES:
             words = "is a line of the plane through four nodes or more; expected a shape here"
             raise InputError(f"'spline' {words}", where=where)
+        from signorini.meshing.profile import mesh_profile  # brings meshio with it
+
         line = mesh_profile(mesh, name)
         return Spline(np.array(line.points), closed=line.closed)
     if shape.dimension != d:
