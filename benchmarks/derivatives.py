@@ -20,12 +20,12 @@ from statistics import median
 import signorini as sg
 from benchmarks import page
 from signorini.derivative.derivative import Derivative, TapedHistory
-from signorini.derivative.outputs import Output
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.engine.tape import Tape
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.linalg.threads import one_thread
+from signorini.model.outputs import Output
 
 _PAGE = Path(__file__).parent.parent / "docs" / "derivatives.md"
 _HEAD = (

@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 import signorini as sg
 from signorini.arrays import Array
 from signorini.derivative.function import AnswerFunction
-from signorini.derivative.outputs import Displacement
+from signorini.model.outputs import Displacement
 
 POINTS = 20
 PUSH = 360.0  # N per mm: 0.95 of what the friction that is looked for holds

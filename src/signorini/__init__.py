@@ -16,18 +16,6 @@ if TYPE_CHECKING:
     from signorini import fatigue, lcp
     from signorini.api import Solution, load, solve
     from signorini.deck import read
-    from signorini.derivative.outputs import (
-        displacement,
-        dissipation,
-        force,
-        gap,
-        halfwidth,
-        moment,
-        motion,
-        pressure,
-        stress,
-        traction,
-    )
     from signorini.derivative.wrappers import jax, torch
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
@@ -54,6 +42,18 @@ if TYPE_CHECKING:
     from signorini.model.mesh import Mesh, join
     from signorini.model.model import Model
     from signorini.model.obstacle import Circle, Plane, Profile, Sphere
+    from signorini.model.outputs import (
+        displacement,
+        dissipation,
+        force,
+        gap,
+        halfwidth,
+        moment,
+        motion,
+        pressure,
+        stress,
+        traction,
+    )
     from signorini.model.plastic import Plastic
     from signorini.model.revolved import Cone, Cylinder, Torus
     from signorini.model.rigid import Rigid
@@ -151,7 +151,7 @@ __all__ = [
 _HOMES = {
     "signorini.api": ("Solution", "load", "solve"),
     "signorini.deck": ("read",),
-    "signorini.derivative.outputs": (
+    "signorini.model.outputs": (
         "displacement",
         "dissipation",
         "force",

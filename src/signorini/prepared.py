@@ -8,11 +8,11 @@ from collections.abc import Mapping, Sequence
 from signorini.api import Solution, dressed
 from signorini.clock import Clock
 from signorini.derivative.function import AnswerFunction
-from signorini.derivative.outputs import Output
 from signorini.engine.prepare import Prepared
 from signorini.engine.prepare import prepare as prepare_model
 from signorini.engine.solve import solve_prepared
 from signorini.model.model import Model
+from signorini.model.outputs import Output
 from signorini.settings import SolverSettings
 
 

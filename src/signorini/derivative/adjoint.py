@@ -9,10 +9,10 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.derivative.functionals import displacement_weights, weights
-from signorini.derivative.outputs import Displacement, Output, Stress, WeightedSum
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import Adjoint, PointTerm, Weights, backward
 from signorini.derivative.view import HistoryView
+from signorini.model.outputs import Displacement, Output, Stress, WeightedSum
 
 
 def adjoint_of(view: HistoryView, output: Output) -> tuple[Adjoint, dict[int, Array]]:

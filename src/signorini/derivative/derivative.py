@@ -18,7 +18,6 @@ from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import LoadChange
 from signorini.derivative.functionals import value, weights
 from signorini.derivative.moduli import ModulusChange
-from signorini.derivative.outputs import Displacement, Output, Stress, WeightedSum
 from signorini.derivative.parameters import change_of, names_of, shape_change
 from signorini.derivative.points import TapePoint, beyond, tape_points
 from signorini.derivative.recursion import Change, PointChange, forward
@@ -29,6 +28,7 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
 from signorini.model.model import Model
+from signorini.model.outputs import Displacement, Output, Stress, WeightedSum
 from signorini.solution.sensitivities import Validity
 
 

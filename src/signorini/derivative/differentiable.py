@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from signorini.derivative.derivative import Derivative, HistoryTangent, TapedHistory
-from signorini.derivative.outputs import Output
 from signorini.derivative.refusals import refuse_model
 from signorini.derivative.sensitivities import sensitivities
 from signorini.engine.solve import raise_failure, solve
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
+from signorini.model.outputs import Output
 from signorini.solution.history import History
 from signorini.solution.sensitivities import Sensitivities
 

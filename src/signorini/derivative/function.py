@@ -13,12 +13,12 @@ from signorini.arrays import Array
 from signorini.derivative.derivative import Derivative, TapedHistory, split
 from signorini.derivative.functionals import value
 from signorini.derivative.moduli import with_material
-from signorini.derivative.outputs import Output, WeightedSum
 from signorini.derivative.parameters import given_value, names_of
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.solve import solve_prepared
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
+from signorini.model.outputs import Output, WeightedSum
 
 _CHANGED = {"friction": "friction", "interference": "interference", "load": "loads", "support": "loads"}
 _MATERIAL = ("E", "nu", "expansion")

@@ -6,7 +6,12 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.derivative.outputs import (
+from signorini.derivative.recursion import Weights
+from signorini.derivative.view import HistoryView
+from signorini.errors import InputError, one_of
+from signorini.fem.probe import StressProbe
+from signorini.fem.stress import DeformedBodies
+from signorini.model.outputs import (
     COMPONENTS,
     AtNode,
     Displacement,
@@ -20,11 +25,6 @@ from signorini.derivative.outputs import (
     Stress,
     WeightedSum,
 )
-from signorini.derivative.recursion import Weights
-from signorini.derivative.view import HistoryView
-from signorini.errors import InputError, one_of
-from signorini.fem.probe import StressProbe
-from signorini.fem.stress import DeformedBodies
 
 _HERTZ_LINE, _HERTZ_POINT = 4.0, 2.5  # half-width squared over the second moment of the pressure of Hertz
 

@@ -8,10 +8,10 @@ import numpy as np
 from signorini.arrays import Array, BoolArray
 from signorini.derivative.derivative import Derivative, TapedHistory
 from signorini.derivative.functionals import value
-from signorini.derivative.outputs import Output, dissipation, force, halfwidth, pressure
 from signorini.derivative.parameters import given_value, names_of
 from signorini.derivative.view import HistoryView
 from signorini.errors import InputError
+from signorini.model.outputs import Output, dissipation, force, halfwidth, pressure
 from signorini.solution.sensitivities import Sensitivities, Validity
 
 _KINDS = ("friction", "interference", "load", "support", "E", "nu", "expansion")

@@ -11,12 +11,13 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray, padded
 from signorini.model.model import Model
+from signorini.model.outputs import Part
 from signorini.model.prints import Prints, Table
 from signorini.output.atomic_write import atomic_write
 from signorini.output.ccx_contact import slave_energies, slave_values
 from signorini.output.fields import Fields
 from signorini.solution.history import History
-from signorini.solution.results import ContactResult, Part, StepResult
+from signorini.solution.results import ContactResult, StepResult
 
 _TENSOR_ORDER = [0, 1, 2, 3, 5, 4]  # xx, yy, zz, xy, xz, yz of xx, yy, zz, xy, yz, xz
 _CELL_HEADS = {

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
+from signorini.model.outputs import Part
 from signorini.plasticity.state import PlasticState
 from signorini.short import Short
 from signorini.solution.bolt_result import BoltResult
@@ -19,7 +19,6 @@ from signorini.solution.certificate import Certificate
 from signorini.solution.contact_wear import ContactWear
 
 OPEN, STICK, SLIP = "open", "stick", "slip"
-Part = Literal["all", "pressure", "friction"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

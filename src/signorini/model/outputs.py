@@ -14,12 +14,12 @@ from typing import Literal, Self
 
 from signorini.checks import number
 from signorini.errors import InputError
-from signorini.solution.results import Part
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "xz")
 """Of a stress, as columns of `BodyStress.stress`."""
 
 Field = Literal["pressure", "traction", "gap", "motion"]
+Part = Literal["all", "pressure", "friction"]
 
 
 @dataclass(frozen=True)
