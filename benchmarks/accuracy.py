@@ -19,13 +19,14 @@ import numpy as np
 
 from benchmarks import command, page
 from signorini.accuracy.curves import curves_of
-from signorini.api import Solution, solve
+from signorini.api import solve
 from signorini.gallery import coarse
 from signorini.meshing.simplices import Simplices
 from signorini.model.accuracy import Accuracy
 from signorini.model.model import Model
 from signorini.plot.accuracy import draw_accuracy
 from signorini.plot.picture_data import PictureData
+from signorini.solved import Solution
 
 DOCUMENT = Path(__file__).parent.parent / "docs" / "accuracy.md"
 PICTURE = DOCUMENT.parent / "figures" / "accuracy.png"

@@ -14,7 +14,7 @@ from signorini._version import __version__
 
 if TYPE_CHECKING:
     from signorini import fatigue, lcp
-    from signorini.api import Solution, load, solve
+    from signorini.api import load, solve
     from signorini.deck import read
     from signorini.derivative.wrappers import jax, torch
     from signorini.engine import paper
@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from signorini.model.wear import Wear
     from signorini.prepared import prepare
     from signorini.settings import SolverSettings
+    from signorini.solved import Solution
     from signorini.vibration.damping import joint_damping
     from signorini.vibration.modes import natural_modes
 
@@ -149,7 +150,7 @@ __all__ = [
 ]
 
 _HOMES = {
-    "signorini.api": ("Solution", "load", "solve"),
+    "signorini.api": ("load", "solve"),
     "signorini.deck": ("read",),
     "signorini.model.outputs": (
         "displacement",
@@ -197,6 +198,7 @@ _HOMES = {
     "signorini.model.wear": ("Wear",),
     "signorini.prepared": ("prepare",),
     "signorini.settings": ("SolverSettings",),
+    "signorini.solved": ("Solution",),
     "signorini.vibration.damping": ("joint_damping",),
     "signorini.vibration.modes": ("natural_modes",),
 }

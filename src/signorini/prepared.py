@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from signorini.api import Solution, dressed
+from signorini.api import dressed
 from signorini.clock import Clock
 from signorini.derivative.function import AnswerFunction
 from signorini.engine.prepare import Prepared
@@ -14,6 +14,7 @@ from signorini.engine.solve import solve_prepared
 from signorini.model.model import Model
 from signorini.model.outputs import Output
 from signorini.settings import SolverSettings
+from signorini.solved import Solution
 
 
 class PreparedModel:

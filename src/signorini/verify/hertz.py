@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.api import Solution, solve
+from signorini.api import solve
 from signorini.arrays import Array
 from signorini.gallery.hertz import LINE_FORCE, LOWER, MODULUS, POINT_FORCE, RADIUS, SEAT, hertz_contact
 from signorini.meshing.plane import Cells, quarter_disk
@@ -22,6 +22,7 @@ from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.reference.hertz import HertzLine, contact_modulus
 from signorini.reference.hertz_point import HertzPoint
+from signorini.solved import Solution
 from signorini.verify.check import Check, checks_of
 
 _LINE = HertzLine(force=LINE_FORCE, radius=RADIUS, modulus=MODULUS)

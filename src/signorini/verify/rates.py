@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
-from signorini.api import Solution, solve
+from signorini.api import solve
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness
 from signorini.meshing.plane import Cells, rectangle
@@ -20,6 +20,7 @@ from signorini.model.material import Elastic
 from signorini.model.mesh import join
 from signorini.model.model import Model
 from signorini.reference.corners import bonded_corner, frictionless_corner
+from signorini.solved import Solution
 from signorini.verify.check import Check, checks_of
 
 Make = Callable[[int, Cells], Model]

@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A solved load history that prints, writes and draws itself, and is asked for stresses along paths and over steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from signorini.arrays import Array
+from signorini.derivative.differentiable import DifferentiableHistory
+from signorini.engine.fatigue import assess_fatigue
+from signorini.engine.fatigue_places import probe_of
+from signorini.engine.stress_history import stress_history
+from signorini.errors import InputError, one_of
+from signorini.fatigue.criteria import FatigueCriterion
+from signorini.fem.path import PathResult, along
+from signorini.fem.stress import BodyStress
+from signorini.model.fatigue import Fatigue
+from signorini.output.archive import write_archive
+from signorini.output.atomic_write import atomic_write
+from signorini.output.checkpoint import write_checkpoint
+from signorini.output.fatigue_csv import fatigue_fields
+from signorini.output.fields import Fields
+from signorini.output.frd import write_frd
+from signorini.output.series import write_pvd
+from signorini.output.table import history_table
+from signorini.output.vtu import write_bodies
+from signorini.plasticity.fields import PlasticFields
+from signorini.plot.animation import animate_path
+from signorini.plot.contact import draw_contacts
+from signorini.plot.escape import plot_escape
+from signorini.plot.picture_data import PictureData
+from signorini.plot.style import literal
+from signorini.plot.view import write_view
+from signorini.report.page import write_report
+from signorini.solution.fatigue_result import FatigueResult
+from signorini.solution.stress_history import StressHistory
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Solution(DifferentiableHistory):
+    """A solved load history; see :class:`signorini.solution.history.History` for its fields.
+
+    Printing it gives the table of forces, pressures, states and the certificate.
+    """
+
+    def __str__(self) -> str:
+        return history_table(self)
+
+    def write(self, path: str | Path) -> None:
+        """Write the last state, or everything, as the file's name says.
+
+        Parameters
+        ----------
+        path : ``.vtu``: the last state with displacement, stress and von Mises stress; ``.pvd``: a series of these for
+            ParaView, at the ends of steps and at times asked for; ``.h5``: everything, to be read again with
+            :func:`load`; ``.frd``: all steps, as CalculiX writes them
+
+        Raises
+        ------
+        InputError
+            For any other name, or if nothing was solved.
+        """
+        path = Path(path)
+        writers: dict[str, Callable[[], object]] = {
+            ".vtu": lambda: write_bodies(self._fields.at(self.last), path, self._fatigue_fields),
+            ".pvd": lambda: write_pvd(self, self._fields, path),
+            ".h5": lambda: write_archive(self, path),
+            ".frd": lambda: write_frd(self, self._fields, path),
+        }
+        if path.suffix.lower() not in writers:
+            raise InputError(f"is '{path}'; expected a name that ends in {', '.join(writers)}", where=("path",))
+        writers[path.suffix.lower()]()
+
+    def save_state(self, path: str | Path) -> None:
+        """Write the end of the last finished step, from which :func:`solve` can go on: a NumPy archive, ``*.npz``.
+
+        Raises
+        ------
+        InputError
+            If no step was finished.
+        """
+        if self.end is None:
+            raise InputError("no step was finished; there is no state to save")
+        write_checkpoint(self.end, Path(path))
+
+    def stress(self, body: str) -> BodyStress:
+        """Stress of a body at its nodes at the end of the last step, not averaged with other bodies.
+
+        Raises
+        ------
+        InputError
+            If there is no such body.
+        """
+        return self._fields.stresses(self.last)[self._number_of(body)]
+
+    def plastic(self, body: str) -> PlasticFields:
+        """Plastic strain and back stress of a body at the nodes of its `stress`, at the end of the last step.
+
+        Raises
+        ------
+        InputError
+            If there is no such body, or none that yields.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> steel = sg.Elastic(E=100.0, nu=0.3, plastic=sg.Plastic(4.0, hardening=50.0))
+        >>> bar = sg.Model(sg.rectangle(width=2.0), kind="plane stress", bodies=[sg.Body("block", steel)],
+        ...                supports=[sg.Support("left", u=(0, None)), sg.Support("bottom", u=(None, 0))],
+        ...                loads=[sg.Load("right", traction=(5.0, 0))])
+        >>> sg.solve(bar).plastic("block").equivalent.round(12)
+        array([0.02, 0.02, 0.02, 0.02])
+        """
+        number, found = self._number_of(body), self._fields.plastic(self.last)
+        if not found:
+            raise InputError("no body of the model yields; there is no plastic strain")
+        return found[number]
+
+    def _number_of(self, body: str) -> int:
+        """Which body of the model has a name."""
+        names = [part.name for part in self.model.bodies]
+        if body not in names:
+            raise InputError(one_of(body, names, "body"))
+        return names.index(body)
+
+    def along(self, points: ArrayLike, *, body: str) -> PathResult:
+        """Displacement and stress of a body at points (n, 2), say ``np.linspace(start, end, 50)``, after the last step.
+
+        Raises
+        ------
+        InputError
+            If there is no such body, or a point lies outside it.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> bar = sg.Model(sg.rectangle(width=2.0, nx=2), bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.0))],
+        ...                supports=[sg.Support("left", u=(0, 0))], loads=[sg.Load("right", traction=(5.0, 0))])
+        >>> path = sg.solve(bar).along([(0.0, 0.5), (1.5, 0.5)], body="block")
+        >>> path.displacement[:, 0].round(12), path.stress[:, 0].round(12)
+        (array([0.   , 0.075]), array([5., 5.]))
+        """
+        last, fields = self.last, self._fields
+        given, plastic = np.asarray(points, float), fields.plastic_strains(last)
+        return along(*fields.on(last), last.displacement, given, body=body, factors=last.factors, plastic=plastic)
+
+    def stress_history(
+        self,
+        where: str | Sequence[str] = (),
+        *,
+        points: ArrayLike | None = None,
+        body: str = "",
+        steps: Sequence[str] = (),
+    ) -> StressHistory:
+        """Stresses and strains over steps at every event, between which they are linear on an exact path.
+
+        Displacements that were not kept are found from the forces of the contacts, some at once.
+
+        Parameters
+        ----------
+        where : contacts, boundaries, node sets and bodies whose nodes are looked at; all contacts if none is named
+        points : (n, d) undeformed coordinates inside a body instead, length
+        body : by name, in which points are
+        steps : by name; the last one if none is named. Of a step that repeats, the last cycle
+
+        Raises
+        ------
+        InputError
+            For an unknown name, and where displacements do not follow from loads and contacts alone and were not kept.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> bar = sg.Model(sg.rectangle(width=2.0, nx=2), bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.0))],
+        ...                supports=[sg.Support("left", u=(0, 0))], loads=[sg.Load("right", traction=(5.0, 0))])
+        >>> sg.solve(bar).stress_history(points=[(1.5, 0.5)], body="block").stress[0, :, 0].round(12)
+        array([0., 5.])
+        """
+        number = 0 if points is None else self._number_of(body)
+        given = None if points is None else np.atleast_2d(np.asarray(points, float))
+        names = (where,) if isinstance(where, str) else where
+        probe, places = probe_of(self._fields.space, self.model, names, given, number)
+        return stress_history(self, probe, places, steps=(steps,) if isinstance(steps, str) else steps)
+
+    def fatigue(
+        self,
+        criterion: FatigueCriterion,
+        *,
+        where: str | Sequence[str] = (),
+        steps: str | Sequence[str] = (),
+        distance: float = 0.0,
+        average: Literal["point", "line"] = "point",
+    ) -> FatigueResult:
+        """What a fatigue criterion says along steps: parameters, critical planes and lives.
+
+        Parameters
+        ----------
+        criterion, where, steps, distance, average : as of :class:`signorini.model.fatigue.Fatigue`
+
+        Raises
+        ------
+        InputError
+            As `stress_history`; and where a critical distance leaves a body.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> bar = sg.Model(sg.rectangle(width=2.0, nx=2), bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.0))],
+        ...                supports=[sg.Support("left", u=(0, 0))], loads=[sg.Load("right", traction=(5.0, 0))])
+        >>> sg.solve(bar).fatigue(sg.fatigue.SWT(), where="top").parameter.round(12)
+        array([0.125, 0.125, 0.125])
+        """
+        request = Fatigue(criterion, where=where, steps=steps, distance=distance, average=average)
+        return assess_fatigue(self, request, self._fields.space)
+
+    @cached_property
+    def _fields(self) -> Fields:
+        return Fields(self.model)
+
+    @property
+    def _fatigue_fields(self) -> dict[str, Array]:
+        """Point arrays of the criteria that the model asks for."""
+        results = self.fatigue_results
+        return fatigue_fields(results, self._fields.stresses(self.last)) if results else {}
+
+    def plot(self) -> Figure:
+        """Draw pressure and friction of every contact at the end of the last step."""
+        data = PictureData(self, self._fields)
+        return literal(draw_contacts(data), data.units)
+
+    def view(self, path: str | Path) -> None:
+        """Write a picture of a model in space after the last step, ``*.png``, rendered off-screen.
+
+        Stress of the deformed bodies, pressure and friction of the contact that presses most. Needs PyVista, the extra
+        ``signorini[view]``.
+
+        Raises
+        ------
+        InputError
+            If PyVista is not installed, the model is plane, nothing was solved, or the name ends otherwise.
+        """
+        write_view(PictureData(self, self._fields), Path(path))
+
+    def report(self, path: str | Path) -> None:
+        """Write a report, one HTML file that needs nothing else: problem, results, certificate, curves, pictures.
+
+        Raises
+        ------
+        InputError
+            If the name does not end in ``.html``.
+        """
+        write_report(self, Path(path), self._fields)
+
+    def plot_escape(self) -> Figure:
+        """Draw the motion along which bodies run away, where no equilibrium was found because of it.
+
+        Raises
+        ------
+        InputError
+            If there is none.
+        """
+        return literal(plot_escape(self))
+
+    def animate(self, path: str | Path, *, contact: str | None = None, frames: int = 100) -> None:
+        """Write a GIF of pressure, friction and slip of a contact along the whole history.
+
+        Parameters
+        ----------
+        path : of the file, ``*.gif``
+        contact : by name; the first where not given
+        frames : pictures, equally many for every straight segment of the loads
+        """
+        with atomic_write(Path(path)) as aside:
+            animate_path(self, aside, contact=contact, frames=frames)
