@@ -34,7 +34,6 @@ def refuse_beside_bonds(model: Model) -> None:
             any(contact.closure is not None for contact in model.contacts),
             "another contact has a closure; expected none",
         ),
-        (bool(model.cyclic_symmetries), "the model is a sector; expected the whole body"),
         (bool(model.fatigue), "fatigue is asked for; expected none"),
     ):
         if found:

@@ -19,7 +19,7 @@ from signorini.engine.path_states import path_state, right_hand_side
 from signorini.engine.prepare import Prepared
 from signorini.friction.history import PathState
 from signorini.friction.problem import ContactProblem
-from signorini.law.bound import SIGN, plain
+from signorini.law.bound import plain
 from signorini.law.cohesion import Bonds, PairCohesion
 from signorini.law.states import OPEN, SLIP, STICK
 from signorini.solution.state import LoadPoint, State
@@ -103,7 +103,7 @@ def pose(
     pull[0] -= np.where(held, _RESERVE * cohesion.most, 0.0)
     sticks = cohesion.sticking(bonds) & ~sheared
     status = np.where(held, np.where(sticks, STICK, SLIP), np.where(given, OPEN, state.status))
-    gap = np.where(held, 0.0, state.gap)
+    gap = np.where(held, np.minimum(state.gap, 0.0), state.gap)  # overlaps press first
     interface = prepared.interface
     sticking = replace(interface, friction=interface.friction.bonded(held, sticks)) if held.any() else interface
     solver = prepared.solver.under(sticking, prepared.scale, np.zeros(len(held), np.bool_))
@@ -270,7 +270,8 @@ class _System:
         law, condensed, n = paths.law, paths.condensed, paths.law.pairs
         active, image = condensed.active, paths.law.image
         held, open_now = posed.held[active], (posed.springs | posed.driven)[active]
-        status = plain(start.state if codes is None else codes)
+        known = _with_branches(law, start) if codes is None else codes
+        status = plain(known)
         opens = open_now if codes is None else posed.springs[active]
         status = np.where(held, start.state, np.where(opens, OPEN, status))
         spring = posed.springs[active]
@@ -282,7 +283,7 @@ class _System:
         forces = plainly.copy()
         for i in np.flatnonzero(status > STICK):
             column = int(np.searchsorted(normal, i))
-            forces[n + i :: n, column] = _slope(law, start, int(i), int(status[i]))
+            forces[n + i :: n, column] = _slope(law, start, int(i), known)
         own = np.flatnonzero(spring[normal])
         by_force = np.zeros(len(rows))
         scaled = stiffness(posed)[active][normal[own]] / condensed.root[normal[own]] ** 2
@@ -339,9 +340,14 @@ class _System:
         return np.linalg.pinv(compliance) + np.diag(1.0 / added)
 
 
-def _slope(law: ContactProblem, start: PathState, i: int, status: int) -> Array:
+def _with_branches(law: ContactProblem, start: PathState) -> IntArray:
+    """(n,) States of pairs, of those that slip with the branch of their bound."""
+    return law.pieces.coded(start.state, start.r[0]) if law.directions == 2 else start.state
+
+
+def _slope(law: ContactProblem, start: PathState, i: int, states: IntArray) -> Array:
     """(d - 1,) Friction per normal force of a pair that slips."""
     if law.directions == 2:
-        return np.array([SIGN[status] * law.bound.tangent(start.r[0])[0][i]])
+        return law.pieces.slope(states)[i : i + 1]
     p = float(start.r[0, i])
     return start.r[1:, i] / p if p > 0.0 else np.zeros(law.directions - 1)
