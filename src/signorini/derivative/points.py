@@ -13,76 +13,16 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, IntArray
+from signorini.derivative.conditions import PieceConditions, PieceEnd, PieceEvent, options, plane_conditions
 from signorini.derivative.interface_system import InterfaceSystem, PairStates
 from signorini.engine.tape import Leg, Tape
 from signorini.errors import InputError
-from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK, UNDECIDED
+from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS
 from signorini.solution.state import LoadPoint
 
 _GRAZES = 1e-9  # of the fastest condition of a piece: one that hardly moves
 _STANDSTILL = 1e-13  # of a segment: a piece that is no longer
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PieceConditions:
-    """What must not be negative in a piece: numbers g of one pair each, linear in its motions and forces.
-
-    Attributes
-    ----------
-    pair : (m,) numbers of active pairs
-    gap, pressure, friction : (m,) how g changes with the gap, the normal and the tangential force
-    branch : (m,) of the bound that it asks of
-    start, slope, kink : (m,) how g changes with the start and the slope of that branch, and with where it begins
-    value, rate : (m,) of g at the end of the piece, and per unit of the part of the leg; 0 in increments
-    """
-
-    pair: IntArray
-    gap: Array
-    pressure: Array
-    friction: Array
-    branch: IntArray
-    start: Array
-    slope: Array
-    kink: Array
-    value: Array
-    rate: Array
-
-    def change(self, h: Array, r: Array) -> Array:
-        """(m,) What motions and forces, (d, n), change of g."""
-        return self.gap * h[0, self.pair] + self.pressure * r[0, self.pair] + self.friction * r[1, self.pair]
-
-    def number(self, event: PieceEvent) -> int:
-        """Of an event among the conditions."""
-        same = (self.pair == event.pair) & (self.gap == event.gap) & (self.friction == event.friction)
-        return int(np.flatnonzero(same & (self.kink == event.kink) & (self.branch == event.branch))[0])
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PieceEvent:
-    """The condition that ends a piece, see `PieceConditions`: of one pair.
-
-    Attributes
-    ----------
-    pair, branch : its number, and of the branch of its bound
-    gap, pressure, friction, start, slope, kink : how g changes with these
-    value, rate : of g at the end of the piece, and per unit of the part of the leg
-    """
-
-    pair: int
-    gap: float
-    pressure: float
-    friction: float
-    branch: int
-    start: float
-    slope: float
-    kink: float
-    value: float
-    rate: float
-
-    def change(self, h: Array, r: Array) -> float:
-        """What motions and forces, (d, n), change of g."""
-        return float(self.gap * h[0, self.pair] + self.pressure * r[0, self.pair] + self.friction * r[1, self.pair])
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -122,9 +62,15 @@ class TapePoint:
         return self.h_rate is not None and len(self.acting) > 0
 
     @cached_property
+    def piece_end(self) -> PieceEnd:
+        """Where the piece is left, as its conditions see it."""
+        rates = None if self.h_rate is None or self.r_rate is None else (self.h_rate, self.r_rate)
+        return PieceEnd(law=self.system.law, states=self.states, h=self.h, r=self.r, rates=rates)
+
+    @cached_property
     def conditions(self) -> PieceConditions:
         """What holds in the piece, in the plane."""
-        return _conditions(self)
+        return plane_conditions(self.piece_end)
 
     @cached_property
     def event(self) -> PieceEvent:
@@ -137,7 +83,7 @@ class TapePoint:
         """
         assert self.h_rate is not None
         assert self.r_rate is not None
-        found = [event for pair in self.acting for event in _options(self, int(pair)) if event.rate < 0.0]
+        found = [event for pair in self.acting for event in options(self.piece_end, int(pair)) if event.rate < 0.0]
         if not found:
             raise InputError(f"the event at load factor {self.load_factor:.9g} has no pair that goes through it")
         first = min(found, key=lambda event: abs(event.value / event.rate))
@@ -177,7 +123,7 @@ def beyond(point: TapePoint, condition: int) -> TapePoint | None:
     if codes is None or known.gap[condition] or known.kink[condition]:
         return None
     pair, after = known.pair[condition], codes.copy()
-    friction = known.friction[condition]
+    friction = known.friction[0, condition]
     slips = (SLIP_PLUS if friction < 0.0 else SLIP_MINUS) + 2 * known.branch[condition]
     after[pair] = slips if friction else OPEN
     return replace(point, states=point.system.states_of_codes(after))
@@ -253,83 +199,3 @@ def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[T
             acting=np.zeros(0, dtype=np.int64),
             increment=True,
         )
-
-
-def _options(point: TapePoint, pair: int) -> Iterator[PieceEvent]:
-    """What may happen to a pair in a piece, as `_conditions` has it of all pairs."""
-    law, states = point.system.law, point.states
-    assert states.codes is not None
-    assert point.h_rate is not None
-    assert point.r_rate is not None
-    code, bound, at = int(states.codes[pair]), law.pieces, (0, pair)
-    gap, p, q = float(point.h[at]), float(point.r[at]), float(point.r[1, pair])
-    gap_rate, p_rate, q_rate = float(point.h_rate[at]), float(point.r_rate[at]), float(point.r_rate[1, pair])
-
-    def of(
-        branch: int = 0, *, gap: float = 0.0, pressure: float = 0.0, friction: float = 0.0, **more: float
-    ) -> PieceEvent:
-        parts = {"start": 0.0, "slope": 0.0, "kink": 0.0} | more
-        rate = gap * gap_rate + pressure * p_rate + friction * q_rate
-        return PieceEvent(pair=pair, branch=branch, gap=gap, pressure=pressure, friction=friction, rate=rate, **parts)
-
-    if code == OPEN:
-        yield of(gap=1.0, value=gap)
-        return
-    yield of(pressure=1.0, value=p)
-    if code == STICK and law.law.closed[pair] == UNDECIDED and not law.unbounded[pair]:
-        for j in range(int(bound.branch_counts[pair])):
-            slope, start = float(bound.slopes[j, pair]), float(bound.starts[j, pair])
-            for s in (1.0, -1.0):
-                value = start + slope * p - s * q
-                yield of(j, pressure=slope, friction=-s, start=1.0, slope=p, value=value)
-    if code > STICK:
-        j, kinks = int(states.branch[pair]), bound.kinks[:, pair]
-        if j:
-            yield of(j, pressure=1.0, kink=-1.0, value=p - float(kinks[j]))
-        if j + 1 < bound.branches and np.isfinite(kinks[j + 1]):
-            yield of(j + 1, pressure=-1.0, kink=1.0, value=float(kinks[j + 1]) - p)
-
-
-def _conditions(point: TapePoint) -> PieceConditions:
-    """Gaps of open pairs, pressures of closed ones, friction to spare, and kinks of the bounds of those that slip."""
-    law, states, gap = point.system.law, point.states, point.h[0]
-    p, q = point.r
-    codes, bound = states.codes, law.pieces
-    assert codes is not None
-    n, zero, one = len(codes), np.zeros(len(codes)), np.ones(len(codes))
-    opened, stick = codes == OPEN, (codes == STICK) & (law.law.closed == UNDECIDED) & ~law.unbounded
-    slips = codes > STICK
-    rows: list[tuple[BoolArray, Array, Array, Array, int | IntArray, Array, Array, Array, Array]] = [
-        (opened, one, zero, zero, 0, zero, zero, zero, gap),
-        (~opened, zero, one, zero, 0, zero, zero, zero, p),
-    ]
-    for j in range(bound.branches):
-        has = stick & np.isfinite(bound.kinks[j])
-        spare = bound.starts[j] + bound.slopes[j] * p
-        rows += [(has, zero, bound.slopes[j], -s * one, j, one, p, zero, spare - s * q) for s in (1.0, -1.0)]
-    for j in range(1, bound.branches):
-        there, below = slips & (states.branch == j), slips & (states.branch == j - 1)
-        rows.append((there, zero, one, zero, j, zero, zero, -one, p - bound.kinks[j]))
-        ends = below & np.isfinite(bound.kinks[j])
-        rows.append((ends, zero, -one, zero, j, zero, zero, one, bound.kinks[j] - p))
-    pairs, parts = np.arange(n), []
-    for which, *columns in rows:
-        parts.append([pairs[which], *(np.broadcast_to(np.asarray(column), n)[which] for column in columns)])
-    pair, of_gap, of_p, of_q, branch, of_start, of_slope, of_kink, value = (
-        np.concatenate(column) for column in zip(*parts, strict=True)
-    )
-    rate = np.zeros(len(pair))
-    if point.h_rate is not None and point.r_rate is not None:
-        rate += of_gap * point.h_rate[0, pair] + of_p * point.r_rate[0, pair] + of_q * point.r_rate[1, pair]
-    return PieceConditions(
-        pair=pair,
-        gap=of_gap,
-        pressure=of_p,
-        friction=of_q,
-        branch=branch,
-        start=of_start,
-        slope=of_slope,
-        kink=of_kink,
-        value=value,
-        rate=rate,
-    )

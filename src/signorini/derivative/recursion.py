@@ -16,8 +16,9 @@ from typing import Protocol
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.derivative.conditions import PieceEvent
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.points import PieceEvent, TapePoint
+from signorini.derivative.points import TapePoint
 from signorini.law.bound import FrictionBound
 
 
@@ -231,7 +232,7 @@ def _through_event(point: TapePoint, h: Array, r: Array, term: BoundTerm) -> Non
     share = -float(np.vdot(h, _rate(point.h_rate)) + np.vdot(r, _rate(point.r_rate))) / event.rate
     h[0, event.pair] += share * event.gap
     r[0, event.pair] += share * event.pressure
-    r[1, event.pair] += share * event.friction
+    r[1:, event.pair] += share * event.friction
     term.starts[at] += share * event.start
     term.slopes[at] += share * event.slope
     term.kinks[at] += share * event.kink

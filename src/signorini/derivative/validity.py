@@ -144,7 +144,7 @@ def _what(point: TapePoint, numbers: IntArray) -> list[str]:
     kinds = np.where(
         known.gap[numbers] != 0.0,
         0,
-        np.where(known.friction[numbers] != 0.0, 1, np.where(known.kink[numbers] != 0.0, 2, 3)),
+        np.where((known.friction[:, numbers] != 0.0).any(axis=0), 1, np.where(known.kink[numbers] != 0.0, 2, 3)),
     )
     return [("closes", "slips", "comes to a kink of its friction", "opens")[kind] for kind in kinds]
 
