@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -16,12 +16,15 @@ from signorini.arrays import Array
 from signorini.derivative.differentiable import DifferentiableHistory
 from signorini.engine.fatigue import assess_fatigue
 from signorini.engine.fatigue_places import probe_of
+from signorini.engine.moments import at_rest
+from signorini.engine.recovery import Recovery
 from signorini.engine.stress_history import stress_history
-from signorini.errors import InputError, one_of
+from signorini.errors import InputError
 from signorini.fatigue.criteria import FatigueCriterion
-from signorini.fem.path import PathResult, along
+from signorini.fem.path import PathResult
 from signorini.fem.stress import BodyStress
 from signorini.model.fatigue import Fatigue
+from signorini.moment import HistoryMoment, body_number
 from signorini.output.archive import write_archive
 from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import write_checkpoint
@@ -40,6 +43,7 @@ from signorini.plot.style import literal
 from signorini.plot.view import write_view
 from signorini.report.page import write_report
 from signorini.solution.fatigue_result import FatigueResult
+from signorini.solution.moment import at_load, counted, instant_at, step_number
 from signorini.solution.stress_history import StressHistory
 
 if TYPE_CHECKING:
@@ -50,7 +54,7 @@ if TYPE_CHECKING:
 class Solution(DifferentiableHistory):
     """A solved load history; see :class:`signorini.solution.history.History` for its fields.
 
-    Printing it gives the table of forces, pressures, states and the certificate.
+    Printing it gives the table of forces, pressures, states and the certificate; `at` gives any moment of it.
     """
 
     def __str__(self) -> str:
@@ -93,6 +97,57 @@ class Solution(DifferentiableHistory):
             raise InputError("no step was finished; there is no state to save")
         write_checkpoint(self.end, Path(path))
 
+    def at(
+        self,
+        step: int | str | None = None,
+        *,
+        load: float | None = None,
+        increment: int | None = None,
+        event: int | None = None,
+    ) -> HistoryMoment:
+        """The bodies and contacts at a moment of the history; the end of the last step if nothing is said.
+
+        On an exact path at any load: between two events all is linear. Displacements that were not kept are found when
+        they are asked for, by one solution of a linear system.
+
+        Parameters
+        ----------
+        step : its name, or its number from 1; the last one if not given
+        load : part of the step, 0 .. 1; where a jump is, behind it
+        increment, event : the end of an increment, or an event of an exact path, by its number in the step from 1
+
+        Raises
+        ------
+        InputError
+            If there is no such moment, or the step is not linear there: what is known is named.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> block = sg.rectangle(width=2.0, height=1.0, nx=2, ny=1)
+        >>> model = sg.Model(block, bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.0))],
+        ...                  supports=[sg.Support("left", u=(0, None))], loads=[sg.Load("top", pressure=3.0)],
+        ...                  contacts=[sg.Contact("bottom", sg.Plane(point=(0, 0), normal=(0, 1)), name="floor")],
+        ...                  steps=[sg.Step(name="press", path="exact")])
+        >>> half = sg.solve(model).at("press", load=0.5)
+        >>> half.contact("floor").pressure.round(12), half.stress("block").stress[:, 1].max().round(12)
+        (array([1.5, 1.5, 1.5]), np.float64(-1.5))
+        """
+        if sum(part is not None for part in (load, increment, event)) > 1:
+            raise InputError("has more than one of 'load', 'increment' and 'event'; expected one of them")
+        number = step_number(self, step)
+        if load is None:
+            place = counted(self, number, increment, event)
+        else:
+            place = at_load(self, number, load, partial(at_rest, self))
+        return HistoryMoment(
+            history=self,
+            number=number,
+            instant=instant_at(self, place),
+            fields=self._fields,
+            recovery=lambda: self._recovery,
+        )
+
     def stress(self, body: str) -> BodyStress:
         """Stress of a body at its nodes at the end of the last step, not averaged with other bodies.
 
@@ -101,7 +156,7 @@ class Solution(DifferentiableHistory):
         InputError
             If there is no such body.
         """
-        return self._fields.stresses(self.last)[self._number_of(body)]
+        return self.at().stress(body)
 
     def plastic(self, body: str) -> PlasticFields:
         """Plastic strain and back stress of a body at the nodes of its `stress`, at the end of the last step.
@@ -121,17 +176,7 @@ class Solution(DifferentiableHistory):
         >>> sg.solve(bar).plastic("block").equivalent.round(12)
         array([0.02, 0.02, 0.02, 0.02])
         """
-        number, found = self._number_of(body), self._fields.plastic(self.last)
-        if not found:
-            raise InputError("no body of the model yields; there is no plastic strain")
-        return found[number]
-
-    def _number_of(self, body: str) -> int:
-        """Which body of the model has a name."""
-        names = [part.name for part in self.model.bodies]
-        if body not in names:
-            raise InputError(one_of(body, names, "body"))
-        return names.index(body)
+        return self.at().plastic(body)
 
     def along(self, points: ArrayLike, *, body: str) -> PathResult:
         """Displacement and stress of a body at points (n, 2), say ``np.linspace(start, end, 50)``, after the last step.
@@ -150,9 +195,7 @@ class Solution(DifferentiableHistory):
         >>> path.displacement[:, 0].round(12), path.stress[:, 0].round(12)
         (array([0.   , 0.075]), array([5., 5.]))
         """
-        last, fields = self.last, self._fields
-        given, plastic = np.asarray(points, float), fields.plastic_strains(last)
-        return along(*fields.on(last), last.displacement, given, body=body, factors=last.factors, plastic=plastic)
+        return self.at().along(points, body=body)
 
     def stress_history(
         self,
@@ -186,7 +229,7 @@ class Solution(DifferentiableHistory):
         >>> sg.solve(bar).stress_history(points=[(1.5, 0.5)], body="block").stress[0, :, 0].round(12)
         array([0., 5.])
         """
-        number = 0 if points is None else self._number_of(body)
+        number = 0 if points is None else body_number(self.model, body)
         given = None if points is None else np.atleast_2d(np.asarray(points, float))
         names = (where,) if isinstance(where, str) else where
         probe, places = probe_of(self._fields.space, self.model, names, given, number)
@@ -226,6 +269,10 @@ class Solution(DifferentiableHistory):
     @cached_property
     def _fields(self) -> Fields:
         return Fields(self.model)
+
+    @cached_property
+    def _recovery(self) -> Recovery:
+        return Recovery.of(self)
 
     @property
     def _fatigue_fields(self) -> dict[str, Array]:

@@ -305,7 +305,8 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
     """
     part, start, segment = path.part, path.start, path.segment
     prepared, interval, state = part.prepared, part.interval, part.before
-    whole = part.whole or bool(state.point.given.any())
+    tied = prepared.paths.condensed.ties is not None  # what ties bear is known with the displacements alone
+    whole = part.whole or tied or bool(state.point.given.any())
     last, since, losses, found = state, 0.0, _losses(segment), []
     if start.note == PRESSED:
         pressed = recovered(prepared, state, state.point, start)

@@ -42,11 +42,13 @@ class Recovery:
     examined : the model
     K : (dofs, dofs) stiffness of bodies and foundations
     factorisation : of the free displacements
+    loose : (dofs, k) rigid motions that nothing but contact holds
     """
 
     examined: Examined
     K: sp.csr_array
     factorisation: Factorisation
+    loose: Array
 
     @classmethod
     @one_thread()
@@ -67,10 +69,10 @@ class Recovery:
         for springs in constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
         free = free_motions(examined.motions, constraints, examined.interface.B[[]])
-        rigid = (examined.motions @ free)[constraints.leaders]
-        held = held_by_springs(reduced_stiffness(K, T), rigid, examined.scale.stiffness)
+        loose = np.asarray(examined.motions @ free)
+        held = held_by_springs(reduced_stiffness(K, T), loose[constraints.leaders], examined.scale.stiffness)
         found = factorise(held, [], nodes=constraints.nodes, points=examined.space.places)
-        return cls(examined=examined, K=K, factorisation=found)
+        return cls(examined=examined, K=K, factorisation=found, loose=loose)
 
     @one_thread()
     def displacements(self, step: StepResult, moments: Sequence[Instant]) -> Iterator[Array]:
@@ -84,14 +86,14 @@ class Recovery:
         asked = [*moments, step.instants[-1]]
         cuts = [*range(0, len(asked), _AT_ONCE), len(asked)]
         for low, high in pairwise(cuts):
-            columns = self._solved(asked[low:high])
+            columns = self.solved(asked[low:high])
             for u in columns.T[: len(moments) - low]:
                 yield self.examined.space.at_nodes(u)
             if high == len(asked) and not self._agrees(columns[:, -1], step, asked[-1]):
                 words = f"displacements on the way of '{step.name}' do not follow from loads and contacts alone"
                 raise InputError(f'{words}; expected at = "events" in it, which keeps them', where=("steps",))
 
-    def _solved(self, moments: Sequence[Instant]) -> Array:
+    def solved(self, moments: Sequence[Instant]) -> Array:
         """(dofs, k) Displacements of all dofs at k moments."""
         examined, constraints = self.examined, self.examined.constraints
         loads = np.column_stack([self._loads(moment) for moment in moments])

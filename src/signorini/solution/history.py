@@ -88,15 +88,15 @@ class History(Short):
         return find_contact(self.last, name)
 
 
-def find_contact(step: StepResult, name: str) -> ContactResult:
-    """A contact of a step, by name.
+def find_contact(state: StepResult | Instant, name: str) -> ContactResult:
+    """A contact in a state, by name.
 
     Raises
     ------
     InputError
         If there is none of that name; the known ones are listed.
     """
-    for contact in step.contacts:
+    for contact in state.contacts:
         if contact.name == name:
             return contact
-    raise InputError(one_of(name, [contact.name for contact in step.contacts], "contact"))
+    raise InputError(one_of(name, [contact.name for contact in state.contacts], "contact"))
