@@ -28,7 +28,7 @@ NAVIGATION: dict[str, list[str]] = {
             "howto/paraview.md",
             "howto/sweeps.md",
         ),
-        *("howto/restart.md", "howto/own_solver.md", "howto/batch.md"),
+        *("howto/restart.md", "howto/own_solver.md", "howto/batch.md", "howto/agents.md"),
     ],
     "Decks": ["deck.md", "inp.md", "security.md"],
     "Features": [

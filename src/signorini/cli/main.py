@@ -12,10 +12,9 @@ import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
+from signorini.cli.exit_codes import DONE, FAILED, INTERRUPTED, NO_SOLUTION, WRONG_INPUT
 from signorini.cli.parser import make_parser
 from signorini.errors import InputError, SolveFailed
-
-DONE, FAILED, WRONG_INPUT, NO_SOLUTION, INTERRUPTED = 0, 1, 2, 3, 130
 
 _MEMORY_ADVICE = "expected a coarser mesh, --backend iterative, or more memory"
 
@@ -24,6 +23,8 @@ _COMMANDS = {
     "signorini.cli.result_commands": ("diff", "plot", "report"),
     "signorini.cli.fatigue_command": ("fatigue",),
     "signorini.cli.word_commands": ("schema", "explain"),
+    "signorini.cli.doctor": ("doctor",),
+    "signorini.cli.mcp_command": ("mcp",),
     "signorini.cli.suite_commands": ("verify", "bench"),
 }
 

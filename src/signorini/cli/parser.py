@@ -55,25 +55,8 @@ def make_parser() -> argparse.ArgumentParser:
 
     _add_fatigue(commands, [shared])
 
-    plot = commands.add_parser("plot", parents=[shared], help="draw the results in a folder")
-    plot.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
-    plot.add_argument(
-        "--what",
-        choices=("contact", "stress", "peeq", "mesh", "view", "history", "wear", "fatigue", "accuracy", "escape"),
-        default="contact",
-    )
-    plot.add_argument("-o", dest="file", metavar="FILE", help="PNG, PDF or SVG file (default: WHAT.png in DIR)")
-
-    report = commands.add_parser("report", parents=[shared], help="write the results in a folder as one HTML page")
-    report.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
-    report.add_argument("-o", dest="file", metavar="FILE", help="HTML file (default: report.html in DIR)")
-
-    commands.add_parser("schema", parents=[shared], help="print the JSON schema of TOML decks, for editors")
-    explain = commands.add_parser("explain", parents=[shared], help="say what a key or a code means")
-    explain.add_argument(
-        "word", metavar="WORD", help="a key of decks, with its table or without, a status, an exit code"
-    )
-
+    _add_plot(commands, [shared])
+    _add_words(commands, [shared])
     _add_suites(commands, [shared])
     return parser
 
@@ -151,6 +134,32 @@ def _add_fatigue(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> N
     fatigue.add_argument("asked", metavar="FILE", help="a TOML file with [[fatigue]] tables")
     fatigue.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the file's name)")
     fatigue.add_argument("--quiet", action="store_true", help="print nothing but errors")
+
+
+def _add_plot(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
+    plot = commands.add_parser("plot", parents=parents, help="draw the results in a folder")
+    plot.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
+    plot.add_argument(
+        "--what",
+        choices=("contact", "stress", "peeq", "mesh", "view", "history", "wear", "fatigue", "accuracy", "escape"),
+        default="contact",
+    )
+    plot.add_argument("-o", dest="file", metavar="FILE", help="PNG, PDF or SVG file (default: WHAT.png in DIR)")
+
+    report = commands.add_parser("report", parents=parents, help="write the results in a folder as one HTML page")
+    report.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
+    report.add_argument("-o", dest="file", metavar="FILE", help="HTML file (default: report.html in DIR)")
+
+
+def _add_words(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
+    commands.add_parser("schema", parents=parents, help="print the JSON schema of TOML decks, for editors")
+    explain = commands.add_parser("explain", parents=parents, help="say what a key or a code means")
+    explain.add_argument(
+        "word", metavar="WORD", help="a key of decks, with its table or without, a status, an exit code"
+    )
+
+    commands.add_parser("doctor", parents=parents, help="say what is found on this machine, and what is missing")
+    commands.add_parser("mcp", parents=parents, help="serve agents over standard input and output (an extra)")
 
 
 def _add_suites(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:

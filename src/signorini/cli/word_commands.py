@@ -7,20 +7,13 @@ import argparse
 import json
 import textwrap
 
+from signorini.cli.exit_codes import EXIT_CODES
 from signorini.deck.schema import deck_schema, meanings
 from signorini.errors import InputError, one_of
 from signorini.outcome import Outcome
 from signorini.report.words import MEANINGS
 
 _WIDTH = 100  # letters of a line
-
-EXIT_CODES = {
-    "0": "Done; of a run: solved, and certified.",
-    "1": "A check failed (verify, diff), an internal error, a disk that is full, or memory that ran out.",
-    "2": "The input is wrong: the message says where, what was found and what is expected.",
-    "3": "No certified solution: the status and message in summary.json say why; what was solved before is written.",
-    "130": "Interrupted, by Ctrl-C or SIGTERM: the finished steps are written, and --from goes on from them.",
-}
 
 
 def schema(options: argparse.Namespace) -> int:
@@ -35,10 +28,11 @@ def explain(options: argparse.Namespace) -> int:
     keys, word = meanings(), options.word
     found = [(key, *keys[key]) for key in keys if word in (key, key.rsplit(".", 1)[-1])]
     found += [(f"status {word}", Outcome(word).advice, "")] if word in set(Outcome) else []
-    found += [(f"exit code {word}", EXIT_CODES[word], "")] if word in EXIT_CODES else []
+    codes = {str(code): words for code, words in EXIT_CODES.items()}
+    found += [(f"exit code {word}", codes[word], "")] if word in codes else []
     found += [(f"certificate, {word}", MEANINGS[word], "")] if word in MEANINGS else []
     if not found:
-        known = [*keys, *{key.rsplit(".", 1)[-1] for key in keys}, *Outcome, *EXIT_CODES, *MEANINGS]
+        known = [*keys, *{key.rsplit(".", 1)[-1] for key in keys}, *Outcome, *codes, *MEANINGS]
         raise InputError(one_of(word, sorted(known), "key or code").partition(" Known:")[0], where=("explain",))
     for name, words, default in found:
         print(name + (f" (default {default})" if default else ""))
