@@ -73,7 +73,8 @@ def test_the_code_of_readme_is_its_deck():
 
 
 def test_commands_of_readme_run(capsys):
-    assert {command.split()[0] for command in COMMANDS} == {"check", "run", "explain", "plot", "report", *SUITES}
+    names = {command.split()[0] for command in COMMANDS}
+    assert names == {"check", "run", "explain", "plot", "report", "doctor", *SUITES}
     for command in COMMANDS:
         if command.split()[0] not in SUITES:
             assert main(shlex.split(command)) == 0, capsys.readouterr()
