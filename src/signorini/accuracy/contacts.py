@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -32,6 +32,10 @@ class ContactErrors:
     pressure: float
     friction: float
     scale: float
+
+    def scaled(self, share: float) -> ContactErrors:
+        """With a share of the squares of differences."""
+        return replace(self, pressure=share * self.pressure, friction=share * self.friction)
 
 
 def trace_errors(space: Space, model: Model, contacts: Sequence[ContactResult], stress: StressError) -> ContactErrors:

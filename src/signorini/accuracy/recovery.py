@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from signorini.accuracy._fits import add_points
 from signorini.arrays import Array, IntArray, among, selection
 from signorini.fem.elasticity import elasticity
 from signorini.fem.jacobian import determinants, jacobians
@@ -176,16 +177,11 @@ def _fitted(space: Space, parts: Sequence[_Cells]) -> _Fitted:
     right = np.zeros((len(points), monomials, components))
     first = 0
     for part in parts:
-        own = patches[:, first : first + len(part.index)].tocoo()
+        own = sp.csr_array(patches[:, first : first + len(part.index)])
         first += len(part.index)
-        vertex, cell = own.row[np.argsort(own.row, kind="stable")], own.col[np.argsort(own.row, kind="stable")]
-        starts = np.flatnonzero(np.diff(vertex, prepend=-1))
         at = np.einsum("pk,mki->mpi", part.block.stress_values, points[part.nodes])
-        away = (at[cell] - points[vertex][:, None]) / sizes[vertex][:, None, None]
-        basis = _monomials(away, order)
-        turned = basis.swapaxes(1, 2)
-        normal[vertex[starts]] += np.add.reduceat(turned @ basis, starts)
-        right[vertex[starts]] += np.add.reduceat(turned @ part.stress[cell], starts)
+        around = own.indptr.astype(np.int64), own.indices.astype(np.int64)
+        add_points(around, at, np.ascontiguousarray(part.stress), points, sizes, normal, right)
     trace = np.trace(normal, axis1=1, axis2=2)[:, None, None]
     normal += np.where(trace > 0.0, _REGULAR * trace, 1.0) * np.eye(monomials)
     return _Fitted(

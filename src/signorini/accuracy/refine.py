@@ -9,27 +9,36 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.accuracy.contacts import level_errors, trace_errors
-from signorini.accuracy.curves import curves_of
+from signorini.accuracy.contacts import ContactErrors, level_errors, trace_errors
+from signorini.accuracy.meshes import RefinedMeshes, is_linear
 from signorini.accuracy.recovery import stress_error
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.fem.space import make_space
 from signorini.fem.stress import DeformedBodies
 from signorini.meshing.simplices import Simplices
 from signorini.model.accuracy import Accuracy, Asked
-from signorini.model.mesh import CORNERS, NODES_PER_CELL
 from signorini.model.model import Model
 from signorini.model.varying import NodeValues
 from signorini.solution.accuracy import AccuracyResult, MeshLevel
 from signorini.solution.history import History
 
-SHARE = 0.7
-"""Of the squares of the errors of all cells: those that have it are refined (Doerfler)."""
-
 LINEAR = 0.6
 """Of the differences that are seen on linear cells: what their pressures lack. Stresses recovered from cells in which
 they are constant, and a mesh of twice the size, are farther from them than they are from the truth."""
+
+SAFE_SHARE = 0.7
+"""Of what was asked for: what the next mesh is made for."""
+
+LEAST_GROWTH, MOST_GROWTH = 1.6, 3.0
+"""How many times the cells of a mesh the next one has: with fewer solves add up, with more cells are where no errors
+are."""
+
+SHARE_OF_ROOM, SMALLEST_GROWTH = 0.9, 1.2
+"""Of the nodes that a mesh may have: what it is made for where errors ask for more; the least growth worth a mesh."""
+
+HALF_AS_MUCH = 0.5
+"""Of the error of the mesh before: with more what differs from it is no more than what is lacking."""
 
 LEVELS = 40
 """Meshes that are tried at most; each has some 1.5 times the nodes of the one before, so that nodes end it first."""
@@ -67,30 +76,29 @@ def estimate(history: History, before: tuple[Simplices, History] | None = None) 
     Parameters
     ----------
     history : solved
-    before : the simplices that it was solved on, and the history of the mesh before
+    before : the simplices that it was solved on, and the history of the mesh before with its accuracy
     """
     model = history.model
     space = make_space(model.mesh, kind=model.kind)
-    pressure, friction, scale, pairs = [0.0], [0.0], [0.0], 0
+    traced, carried, pairs = list[ContactErrors](), list[ContactErrors](), 0
     squares, lost, norms = np.zeros(model.mesh.number_of_cells), [0.0], [0.0]
     for k, step in enumerate(history.steps):
         stress = stress_error(DeformedBodies.of(space, model, step.displacement, step.factors))
         squares += stress.squares
         lost.append(float(stress.squares.sum()))
         norms.append(stress.norm_square)
-        found = [trace_errors(space, model, step.contacts, stress)]
+        traced.append(trace_errors(space, model, step.contacts, stress))
         if before is not None:
-            found.append(level_errors(step.contacts, _carried(before, k)))
-        pressure.append(max(one.pressure for one in found))
-        friction.append(max(one.pressure + one.friction for one in found))
-        scale.append(found[0].scale)
+            carried.append(level_errors(step.contacts, _carried(before, k)))
         pairs = max(pairs, sum(int(contact.closed.sum()) for contact in step.contacts))
-    size, norm = max(scale), max(norms)
-    share = LINEAR if _linear(model) else 1.0
+    energy = float(np.sqrt(max(lost) / max(norms))) if max(norms) > 0.0 else 0.0
+    known = None if before is None else before[1].accuracy
+    found = traced + [one.scaled(_level_share(energy, known.energy)) for one in carried if known is not None]
+    size, share = max((one.scale for one in traced), default=0.0), LINEAR if is_linear(model) else 1.0
     return Estimate(
-        pressure=share * _ratio(max(pressure), size),
-        traction=share * _ratio(max(friction), size),
-        energy=float(np.sqrt(max(lost) / norm)) if norm > 0.0 else 0.0,
+        pressure=share * _ratio(max((one.pressure for one in found), default=0.0), size),
+        traction=share * _ratio(max((one.pressure + one.friction for one in found), default=0.0), size),
+        energy=energy,
         squares=squares,
         pairs=pairs,
     )
@@ -127,7 +135,7 @@ def accurate(model: Model, asked: Asked, solve: Callable[[Model], History]) -> H
 
 def _refined(model: Model, request: Accuracy, solve: Callable[[Model], History]) -> History:
     """On finer and finer meshes, until errors are below what was asked, or a bound ends it."""
-    meshes, start = _Meshes(model, request), time.perf_counter()
+    meshes, start = RefinedMeshes(model, request), time.perf_counter()
     posed, levels, known = meshes.first(), list[MeshLevel](), None
     while True:
         begun = time.perf_counter()
@@ -138,7 +146,7 @@ def _refined(model: Model, request: Accuracy, solve: Callable[[Model], History])
         levels.append(_level(posed, found, time.perf_counter() - begun))
         met, reason = _met(request, found, model.dimension, len(levels)), ""
         if not met:
-            posed = meshes.next(_marked(found.squares))
+            posed = meshes.next(found.squares, _growth(request, found, posed))
             reason = _end(request, len(posed.mesh.points), time.perf_counter() - start, len(levels))
             if reason and len(levels) == 1 and found.of(request.of) <= request.error:
                 reason = f"it is estimated on one mesh alone: {reason}"
@@ -213,42 +221,6 @@ def _by_nodes(value: object) -> bool:
     return isinstance(value, np.ndarray | NodeValues)
 
 
-class _Meshes:
-    """A model on finer and finer meshes."""
-
-    def __init__(self, model: Model, request: Accuracy) -> None:
-        mesh, d = model.mesh, model.dimension
-        self._model, self._curves = model, curves_of(mesh, request.shapes)
-        cut = [family for family in mesh.cells if CORNERS[family] != d + 1]
-        self._order = 1 if not cut and _linear(model) else 2
-        self.notes = tuple(f"'{name}' follows {curve}" for name, curve in self._curves.items())
-        if cut:
-            kind = "triangles" if d == 2 else "tetrahedra"
-            self.notes += (
-                f"{' and '.join(cut)} cells are cut into quadratic {kind}, which are halved where they lack",
-            )
-        self.simplices = Simplices.of(mesh)
-
-    def first(self) -> Model:
-        """On the simplices of the mesh that was given."""
-        bodies = [
-            replace(body, formulation=None) if body.formulation == "incompatible" else body
-            for body in self._model.bodies
-        ]
-        self._model = replace(self._model, bodies=bodies, mesh=self.simplices.mesh(self._order, self._curves))
-        return self._model
-
-    def next(self, marked: IntArray) -> Model:
-        """On simplices refined where they are marked."""
-        self.simplices = self.simplices.refined(marked, self._curves)
-        return replace(self._model, mesh=self.simplices.mesh(self._order, self._curves))
-
-
-def _linear(model: Model) -> bool:
-    """Whether all cells are."""
-    return all(CORNERS[family] == NODES_PER_CELL[family] for family in model.mesh.cells)
-
-
 def _carried(before: tuple[Simplices, History], step: int) -> list[tuple[Array, Array]]:
     """Of every contact pressure and friction of the mesh before at the corners of this one."""
     simplices, history = before
@@ -262,17 +234,34 @@ def _carried(before: tuple[Simplices, History], step: int) -> list[tuple[Array, 
     return found
 
 
-def _marked(squares: Array) -> IntArray:
-    """The fewest cells that have `SHARE` of the squares."""
-    order = np.argsort(-squares, kind="stable")
-    return order[: int(np.searchsorted(np.cumsum(squares[order]), SHARE * squares.sum())) + 1]
-
-
 def _met(request: Accuracy, found: Estimate, dimension: int, levels: int) -> bool:
     """Whether errors are small enough, of pressures on two meshes and with enough pairs."""
     if found.of(request.of) > request.error:
         return False
     return request.of == "energy" or (levels > 1 and found.pairs >= PAIRS[dimension])
+
+
+def _rate(model: Model) -> float:
+    """Power of the number of nodes with which errors fall."""
+    return (1.0 if is_linear(model) else 2.0) / model.dimension
+
+
+def _growth(request: Accuracy, found: Estimate, model: Model) -> float:
+    """Of the number of cells, as far as errors that fall as usual ask for it."""
+    needed = (found.of(request.of) / (SAFE_SHARE * request.error)) ** (1.0 / _rate(model))
+    room = SHARE_OF_ROOM * request.nodes / len(model.mesh.points)
+    return min(max(needed, LEAST_GROWTH), MOST_GROWTH, room if room > SMALLEST_GROWTH else MOST_GROWTH)
+
+
+def _level_share(energy: float, before: float) -> float:
+    """Of the square of the difference from the mesh before: what this one lacks of it, where errors fall as in energy.
+
+    Parameters
+    ----------
+    energy, before : errors of the stresses on both
+    """
+    fall = energy / before if before > 0.0 else 1.0
+    return (fall / (1.0 - fall)) ** 2 if fall < HALF_AS_MUCH else 1.0
 
 
 def _end(request: Accuracy, nodes: int, seconds: float, levels: int) -> str:

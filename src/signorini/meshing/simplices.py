@@ -201,6 +201,7 @@ class _Halves:
         self.ends = np.empty((0, 2), np.int64)
         self._keys: IntArray = np.empty(0, np.int64)
         self._corner: IntArray = np.empty(0, np.int64)
+        self._ended = np.zeros(len(self.points), dtype=np.bool_)
 
     def halve(self, keys: IntArray, boundaries: Mapping[str, IntArray], curves: Mapping[str, Curve]) -> None:
         """Corners for those of some edges that have none yet.
@@ -223,6 +224,8 @@ class _Halves:
         corner = len(self.points) + np.arange(len(keys))
         self._keys, self._corner = _merged((self._keys, self._corner), (keys, corner))
         self.points, self.ends = np.vstack([self.points, at]), np.vstack([self.ends, ends])
+        self._ended = np.concatenate([self._ended, np.zeros(len(keys), dtype=np.bool_)])
+        self._ended[ends] = True
         bent = bend.any(axis=1)
         halves = [_key(end[bent], corner[bent]) for end in ends.T]
         given = np.concatenate(halves), np.tile(bend[bent] / 4.0, (2, 1))  # of a parabola at a quarter
@@ -238,9 +241,9 @@ class _Halves:
 
     def longest(self, simplices: IntArray) -> tuple[BoolArray, IntArray]:
         """(m,) Which simplices have a halved edge, and the key of the longest edge of each."""
-        keys = _edge_keys(simplices)
-        asked: BoolArray = np.asarray((self.corner(keys) >= 0).any(axis=1))
-        longest = np.full(len(keys), -1)
+        asked: BoolArray = np.count_nonzero(self._ended[simplices], axis=1) > 1  # most have no such corners
+        asked[asked] = (self.corner(_edge_keys(simplices[asked])) >= 0).any(axis=1)
+        longest = np.full(len(simplices), -1)
         longest[asked] = self.longest_edges(simplices[asked])
         return asked, longest
 

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A model on finer and finer meshes: as many cells as an accuracy is expected to need, where errors are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.accuracy.curves import curves_of
+from signorini.arrays import Array, IntArray
+from signorini.meshing.simplices import Curve, Simplices
+from signorini.model.accuracy import Accuracy
+from signorini.model.mesh import CORNERS, NODES_PER_CELL
+from signorini.model.model import Model
+
+SHARE = 0.7
+"""Of the squares of the errors of all cells: those that have it are refined (Doerfler)."""
+
+_FALL = 1.5
+"""Power of its size with which the square of the error of a cell is expected to fall: between 3, of quadratic cells in
+the plane where stresses are smooth, and 1.5 at the end of a contact, where they grow as the root of the distance."""
+
+
+_CELLS_MORE = 4
+"""Cells more for each that is refined: it becomes two to four, and neighbours are bisected too."""
+
+
+class RefinedMeshes:
+    """A model on finer and finer meshes.
+
+    Parameters
+    ----------
+    model : on the mesh to begin with
+    request : whose shapes new nodes go onto
+
+    Attributes
+    ----------
+    notes : how the mesh is made anew
+    simplices : of the mesh as it is
+    """
+
+    def __init__(self, model: Model, request: Accuracy) -> None:
+        mesh, d = model.mesh, model.dimension
+        self._model, self._curves = model, curves_of(mesh, request.shapes)
+        cut = [family for family in mesh.cells if CORNERS[family] != d + 1]
+        self._order = 1 if not cut and is_linear(model) else 2
+        self.notes = tuple(f"'{name}' follows {curve}" for name, curve in self._curves.items())
+        if cut:
+            kind = "triangles" if d == 2 else "tetrahedra"
+            self.notes += (
+                f"{' and '.join(cut)} cells are cut into quadratic {kind}, which are halved where they lack",
+            )
+        self.simplices = Simplices.of(mesh)
+
+    def first(self) -> Model:
+        """On the simplices of the mesh that was given."""
+        bodies = [
+            replace(body, formulation=None) if body.formulation == "incompatible" else body
+            for body in self._model.bodies
+        ]
+        self._model = replace(self._model, bodies=bodies, mesh=self.simplices.mesh(self._order, self._curves))
+        return self._model
+
+    def next(self, squares: Array, growth: float) -> Model:
+        """On simplices refined where errors are.
+
+        Parameters
+        ----------
+        squares : (m,) of the errors of the cells
+        growth : of the number of cells, > 1
+        """
+        self.simplices = grown(self.simplices, squares, growth, self._curves)
+        return replace(self._model, mesh=self.simplices.mesh(self._order, self._curves))
+
+
+def grown(simplices: Simplices, squares: Array, growth: float, curves: dict[str, Curve]) -> Simplices:
+    """Simplices refined again and again where errors are, as they are expected to fall, until they are so many more.
+
+    Parents and origins are those since the simplices that are given.
+
+    Parameters
+    ----------
+    simplices : to begin with
+    squares : (m,) of the errors of the cells
+    growth : of the number of cells, > 1
+    curves : true shapes of boundaries
+    """
+    found, enough = simplices, growth * len(simplices.cells)
+    sizes, left, origin, parents = _sizes(simplices), squares, simplices.origin, None
+    while len(found.cells) < enough:
+        room = int((enough - len(found.cells)) / _CELLS_MORE) + 1
+        finer = found.refined(marked(left)[:room], curves)
+        smaller = _sizes(finer)
+        left = left[finer.origin] * (smaller / sizes[finer.origin]) ** _FALL
+        origin = finer.origin if parents is None else origin[finer.origin]
+        parents = finer.parents if parents is None else np.vstack([parents, finer.parents[len(parents) :]])
+        found, sizes = finer, smaller
+    return found if parents is None else replace(found, parents=parents, origin=origin)
+
+
+def marked(squares: Array) -> IntArray:
+    """The fewest cells that have `SHARE` of the squares."""
+    order = np.argsort(-squares, kind="stable")
+    return order[: int(np.searchsorted(np.cumsum(squares[order]), SHARE * squares.sum())) + 1]
+
+
+def is_linear(model: Model) -> bool:
+    """Whether all cells are."""
+    return all(CORNERS[family] == NODES_PER_CELL[family] for family in model.mesh.cells)
+
+
+def _sizes(simplices: Simplices) -> Array:
+    """(m,) Areas or volumes of simplices, but for a factor."""
+    corners = simplices.points[simplices.cells]
+    return np.asarray(np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])))
