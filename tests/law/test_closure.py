@@ -39,8 +39,6 @@ def test_what_is_no_closure(points, said):
         ({"closure": 3.0}, "closure: is 3.0; expected a Closure"),
         ({"friction": "tied"}, "closure: is given, but the contact is tied; expected one of both"),
         ({"normal_compliance": 0.1}, "closure: is given, but normal_compliance too; expected one of both"),
-        ({"wear": sg.Wear(1e-6), "friction": 0.1}, "closure: is given, but the contact wears; expected one of both"),
-        ({"sliding": "finite"}, "closure: is given, but the sides slide far; expected one of both"),
     ],
 )
 def test_what_a_closure_does_not_go_with(given, said):

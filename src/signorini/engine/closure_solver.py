@@ -16,6 +16,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
+from signorini.condense.condensed import Condensed
 from signorini.engine.increment import Increment, IncrementAnswer
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.errors import told
@@ -113,6 +114,11 @@ class ClosureSolver:
     @property
     def paths(self) -> None:
         """None: what follows paths is known on given lines alone, see `engine.closure_paths`."""
+
+    @property
+    def condensed(self) -> Condensed | None:
+        """The interface as the bodies feel it, on whichever lines."""
+        return self.bodies.condensed
 
     @property
     def elastic(self) -> ClosureSolver:

@@ -117,8 +117,6 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     )
     if model.yields and examined.turns:
         _refuse_sliding(model, "a body yields and one may turn; expected elastic bodies, or supports against turning")
-    if model.slides and interface.closure is not None:
-        _refuse_sliding(model, "another contact has a closure; expected none that has, or sides that slip a little")
     _refuse_unheld(examined, schedule)
     if model.fatigue:
         refuse_requests(space, model)

@@ -64,11 +64,13 @@ class Handover:
     before : as the pairs of the next stride see it; what fades away in that is in its point
     fading : (dofs,) forces that equilibrium would miss
     growing : (dofs,) forces that grow in that stride
+    stored : energy that what lies between the sides stores beyond what it did with the last pairs
     """
 
     before: State
     fading: Array
     growing: Array
+    stored: float = 0.0
 
     @staticmethod
     def to(prepared: Prepared, state: State, loads: Array, known: BoolArray, gap: Array) -> Handover:
@@ -140,7 +142,7 @@ class Handover:
             return self
         force = size * np.divide(along, length, out=np.zeros_like(along), where=length > 0.0)
         work = 0.5 * (1.0 + way.ahead) * float(size @ length)
-        freed = float(way.forces[0] @ opened) - 0.5 * float((self.fading + self.growing) @ way.moved)
+        freed = float(way.forces[0] @ opened) - 0.5 * float((self.fading + self.growing) @ way.moved) - self.stored
         share = np.clip((owed + freed) / work, -_LARGEST_SHARE, _LARGEST_SHARE)
         return replace(self, growing=self.growing + share * interface.on_bodies(force))
 
@@ -165,7 +167,8 @@ class Handover:
                 energy += float((mean * self.fading + (1.0 - mean) * self.growing) @ moved)
                 whole, seen = now, t
             last, passed = now, t
-            shots.append(replace(shot, state=replace(now, work=now.work - energy, released=now.released - energy)))
+            freed = energy + self.stored
+            shots.append(replace(shot, state=replace(now, work=now.work - energy, released=now.released - freed)))
         return replace(followed, snapshots=tuple(shots), after=shots[-1].state)
 
 

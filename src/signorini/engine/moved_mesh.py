@@ -21,6 +21,7 @@ from signorini.engine.handing_over import supported
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared, condensed_model
 from signorini.engine.step_parts import FollowedPart
+from signorini.engine.stride_pairs import where_bodies_are
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.body_frames import BodyFrames
 from signorini.fem.loads import nodal_loads
@@ -229,7 +230,7 @@ def given_way(old: tuple[Prepared, State], new: Prepared, point: LoadPoint, foll
     """
     (now, before), after = old, followed.after
     work = float(applied(new, point)[0] @ (after.displacement - before.displacement))
-    gone = stored_energy(now, before) - stored_energy(new, after)
+    gone = stored_energy(where_bodies_are(now, before), before) - stored_energy(where_bodies_are(new, after), after)
     spent = float((after.dissipation - before.dissipation).sum())
     after = replace(
         after,

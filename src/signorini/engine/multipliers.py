@@ -65,6 +65,10 @@ class MultiplierSolver:
         """None: nothing is condensed."""
 
     @property
+    def condensed(self) -> None:
+        """None as well."""
+
+    @property
     def elastic(self) -> MultiplierSolver:
         """Itself."""
         return self

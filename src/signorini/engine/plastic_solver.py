@@ -24,6 +24,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
+from signorini.condense.condensed import Condensed
 from signorini.engine.increment import Increment, IncrementAnswer, Mechanism
 from signorini.engine.plastic_rounds import Rounds
 from signorini.engine.plastic_search import LineSearch
@@ -111,6 +112,11 @@ class PlasticSolver:
         """What follows paths along which nothing yields."""
         return self.elastic.paths
 
+    @property
+    def condensed(self) -> Condensed | None:
+        """The interface as the bodies feel it before any of them yields."""
+        return self.elastic.condensed
+
     def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> PlasticSolver:
         """Bodies under another law, see `ContactSolver.under`.
 
@@ -130,7 +136,8 @@ class PlasticSolver:
         elastic : the same bodies with these pairs before anything yields
         interface : with as many pairs, in the same order
         """
-        return replace(self, elastic=elastic, tangents=self.tangents.paired(interface), interface=interface)
+        paired = self.elastic.paired(elastic, interface)
+        return replace(self, elastic=paired, tangents=self.tangents.paired(interface), interface=interface)
 
     def moving(self, ways: Array, interface: Interface, scale: Scale) -> PlasticSolver:
         """Bodies of which some rest, see `ContactSolver.moving`.

@@ -40,7 +40,7 @@ from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Loading, data_scale, loading_of
 from signorini.solution.state import State
 
-_UNCONDENSED = (
+UNCONDENSED = (
     "an exact path needs the condensed interface, and this model is solved by iteration, because its factor does not "
     "fit or because it was asked for; expected path = 'increments'"
 )
@@ -103,7 +103,7 @@ class Prepared(Examined, DiscreteModel):
             Where contact is solved on the bodies as they are.
         """
         if self.solver.paths is None:
-            raise InputError(_UNCONDENSED, where=("step",))
+            raise InputError(UNCONDENSED, where=("step",))
         return self.solver.paths
 
     @property
@@ -151,17 +151,17 @@ class Prepared(Examined, DiscreteModel):
         key = self.released, candidates.tobytes()
         known = self.kept.get(key) if self.kept else None
         made = condensed_model(posed, self.K, candidates, self.backend, self.settings, self.clock, known)
-        if known is None and self.kept is not None and made.solver.paths is not None:
+        if known is None and self.kept is not None and made.solver.condensed is not None:
             if len(self.kept) >= _KEPT:
                 self.kept.pop(next(iter(self.kept)))
-            self.kept[key] = made.solver.paths.condensed
+            self.kept[key] = made.solver.condensed
         same = {name: getattr(self, name) for name in ("released", "multiplied", "kept", "wearing", "meshed")}
         return _flowing(replace(made, **same), self.yielding)
 
     def keeping(self) -> Prepared:
         """To be solved many times: what steps factorise for other supports or pairs is kept, the last few."""
-        paths = self.solver.paths
-        known = {} if paths is None else {(self.released, self.candidates.tobytes()): paths.condensed}
+        condensed = self.solver.condensed
+        known = {} if condensed is None else {(self.released, self.candidates.tobytes()): condensed}
         return replace(self, kept=known)
 
     def under(self, interface: Interface, loading: Loading, absent: BoolArray) -> Prepared:
@@ -303,7 +303,7 @@ def prepare(
     made = condensed_model(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
     wearing = worn_sides(made.space, made.model, made.interface) if model.wears else None
-    if wearing is not None and made.solver.paths is None and made.interface.closure is None:
+    if wearing is not None and made.solver.condensed is None:
         raise InputError(_UNCONDENSED_WEAR, where=("contact", int(wearing.contact[0]), "wear"))
     made = replace(made, released=next(stages(made.model, before=before)).released, wearing=wearing)
     return _flowing(made, yielding_bodies(made.space, made.model) if model.yields else None)

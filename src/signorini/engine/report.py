@@ -16,6 +16,7 @@ from signorini.engine.energy import interface_energy, stored_energy, thermal_ene
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
+from signorini.engine.stride_pairs import where_bodies_are
 from signorini.engine.turning import forces_in_space
 from signorini.engine.validity_notes import step_notes
 from signorini.fem.obstacles import arm
@@ -51,16 +52,17 @@ def step_result(
     finished : whether it goes to the end of the step
     """
     before, state = followed.before, followed.after
-    stored_before = stored_energy(prepared, before)
+    stored_before = stored_energy(_paired(prepared, before), before)
     instants_of, prepared = prepared, followed.prepared or prepared
     heat = thermal_energy(prepared) if prepared.model.heats else _no_heat
     instants = tuple(_instants(instants_of, followed, cycle_ends, heat))
     cycles = followed.cycles or (make_cycles(followed, cycle_ends) if len(cycle_ends) > 1 else ())
     steadiness, words = judge(cycles, prepared.scale) if cycles else ("", "")
-    stored, dissipated = stored_energy(prepared, state), (state.dissipation - before.dissipation).sum()
+    there = _paired(prepared, state)
+    stored, dissipated = stored_energy(there, state), (state.dissipation - before.dissipation).sum()
     spent = stored - stored_before + float(dissipated) + state.released - before.released
     spent += state.plastic_work - before.plastic_work
-    layers = interface_energy(prepared, state)
+    layers = interface_energy(there, state)
     loads, held = _outside(prepared, followed)
     model = prepared.model
     reactions, bolts = _reactions(prepared, state, held), {bolt.label for bolt in model.bolts}
@@ -97,6 +99,11 @@ def step_result(
         notes=(*step_notes(prepared, followed), *((words,) if words else ())),
         yielding=_yielding(prepared, followed, float(stage.number - 1)),
     )
+
+
+def _paired(prepared: Prepared, state: State) -> Prepared:
+    """The model with the pairs of where its bodies are, if they slide far."""
+    return where_bodies_are(prepared, state) if prepared.model.slides else prepared
 
 
 def _no_heat(_state: State) -> float:

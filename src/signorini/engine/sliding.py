@@ -14,17 +14,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import ceil
 
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.engine.energy import interface_energy
 from signorini.engine.handing_over import Handover, supported, with_pairs
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.rubbing import rubbed, rubbing_of_states, set_loose
 from signorini.engine.step_parts import FollowedPart, StepPart, at_once, ending, joined, keep, reached
-from signorini.engine.stride_pairs import Pairing, paired, stride_of, wearing_at
+from signorini.engine.stride_pairs import Pairing, paired, stride_of, wearing_at, where_bodies_are
 from signorini.engine.stride_plan import StridePlan
 from signorini.engine.turning import first_share, refuse_turned, with_turned_loads
 from signorini.errors import Interrupted, SolveFailed
@@ -128,6 +130,7 @@ class _Walk:
         """(n,) What pairs feel of it there."""
         return 0.0 if prepared.wearing is None else np.asarray(prepared.wearing.gap @ self.depth(t))
 
+    @cached_property
     def begin(self) -> Pairing:
         """The pairs of where the bodies are before the first stride."""
         part, u = self.part, self.part.before.displacement
@@ -147,6 +150,7 @@ class _Walk:
         first, gap = end.gap_before(pairs.interface) + beyond
         handover = Handover.to(prepared, state, self.loads(last), known, first)
         before = handover.before
+        handover = replace(handover, stored=interface_energy(prepared, before) - self.stored(last))
         gap = np.where(own, gap, now.end.gap)
         opened = np.where(own & ~self.lost.any(), gap - before.point.gap - (beyond[1] - beyond[0]), 0.0)
         owed = 0.0 if last is None else last.owed
@@ -208,6 +212,12 @@ class _Walk:
         if last is not None:
             return last.loads
         return applied(with_turned_loads(part.prepared, part.before.displacement), part.before.point)[0]
+
+    def stored(self, last: Stride | None) -> float:
+        """Energy of what lies between the sides, where the last stride ended."""
+        if last is not None:
+            return interface_energy(last.prepared, last.followed.after)
+        return interface_energy(replace(self.part.prepared, interface=self.begin.interface), self.part.before)
 
     def arrived(self, last: Stride) -> Stride:
         """The end of the part with the pairs, and the loads, of where bodies are that have turned."""
@@ -282,7 +292,7 @@ def _in_strides(part: StepPart, follow: Follow, lost: Array | None, strides: lis
     behind: list[Stride] = [] if strides is None else strides
     first = len(behind)
     rest, share = part, first_share(part.prepared, part.before.point, part.end, walk.limit)
-    rate, begin = np.zeros(len(part.before.displacement)), walk.begin()
+    rate, begin = np.zeros(len(part.before.displacement)), walk.begin
     known: Array | None = None
     tries, ends = 0, False
     while True:
@@ -336,7 +346,14 @@ def _refuse_turned(part: StepPart, strides: list[Stride]) -> None:
 def _finished(part: StepPart, strides: list[Stride]) -> FollowedPart:
     """All strides as one; the state at the end refers to the pairs before anything moved, as that before does."""
     followed, changed = joined([stride.followed for stride in strides]), max(stride.changed for stride in strides)
-    after = replace(followed.after, point=replace(followed.after.point, gap=part.end.gap))
+    last = strides[-1]
+    state = last.followed.after
+    more = interface_energy(where_bodies_are(last.prepared, state), state) - interface_energy(last.prepared, state)
+    after = replace(
+        followed.after,
+        point=replace(followed.after.point, gap=part.end.gap),
+        released=followed.after.released - more,
+    )
     notes = followed.notes
     if changed > _SAID_FROM:
         words = f"{FOLLOWED} {len(strides)} strides; what fades away at a node as they hand over"

@@ -49,7 +49,11 @@ class ContactSolver(Protocol):
 
     @property
     def paths(self) -> CondensedSolver | None:
-        """What follows paths from event to event; None where nothing is condensed."""
+        """What follows paths from event to event; None where nothing is condensed, or lines of closures are sought."""
+
+    @property
+    def condensed(self) -> Condensed | None:
+        """The interface as the bodies feel it; None where nothing is condensed."""
 
     @property
     def elastic(self) -> ContactSolver:

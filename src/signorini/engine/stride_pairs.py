@@ -9,7 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
-from signorini.engine.prepare import Prepared
+from signorini.engine.prepare import UNCONDENSED, Prepared
 from signorini.engine.solver import CondensedSolver
 from signorini.engine.step_parts import StepPart
 from signorini.errors import InputError, SolveFailed
@@ -18,6 +18,7 @@ from signorini.interface.interface import Interface
 from signorini.interface.sliding import paired_at
 from signorini.interface.worn_sides import worn_sides
 from signorini.outcome import Outcome
+from signorini.solution.state import State
 
 _STRIDE = 0.25  # of the shortest facet: how far sides slide before pairs are made anew
 
@@ -61,7 +62,10 @@ def paired(prepared: Prepared, interface: Interface) -> Prepared:
     interface : with as many pairs, in the same order
     """
     B = sp.csr_array(interface.B @ prepared.constraints.transform)
-    condensed = prepared.paths.condensed.paired(B, interface, prepared.scale.stiffness, stride_of(prepared))
+    condensed = prepared.solver.condensed
+    if condensed is None:
+        raise InputError(UNCONDENSED, where=("step",))
+    condensed = condensed.paired(B, interface, prepared.scale.stiffness, stride_of(prepared))
     if prepared.absent.any():
         condensed = condensed.among(~prepared.absent)
     elastic = CondensedSolver.of(condensed, interface, prepared.scale, prepared.settings)
@@ -74,6 +78,18 @@ def wearing_at(prepared: Prepared, interface: Interface) -> Prepared:
     if prepared.wearing is None:
         return prepared
     return replace(prepared, wearing=worn_sides(prepared.space, prepared.model, interface))
+
+
+def where_bodies_are(prepared: Prepared, state: State) -> Prepared:
+    """The model with the pairs of where its bodies are, between strides; itself where nothing lies between the sides.
+
+    What lies there stores energy by the areas of its pairs, which change as the sides slide.
+    """
+    interface, u = prepared.interface, state.displacement
+    if not prepared.model.slides or not u.any() or (interface.closure is None and not interface.compliance.any()):
+        return prepared
+    found = paired_at(interface, prepared.space, prepared.model, prepared.constraints, prepared.frames, u)
+    return replace(prepared, interface=found)
 
 
 def stride_of(prepared: Prepared) -> float:

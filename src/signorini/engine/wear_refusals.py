@@ -12,7 +12,7 @@ from signorini.solution.state import State
 
 NEEDS_OF_STRIDES = (
     "blocks of cycles that slide far need strides that recur: no 'increments', no results at events, no temperature, "
-    "no body that turns, and cycles alike; expected that, or no 'block'"
+    "no body that turns, no closure, and cycles alike; expected that, or no 'block'"
 )
 """What blocks need where sides slide far."""
 

@@ -163,7 +163,7 @@ class _Walk:
         steady = np.array_equal(start.gap, self.end.gap) and not start.given.any() and not start.reaction.any()
         alike = stage.ends[:m] == stage.ends[m : 2 * m]
         exact = step.increments is None and step.path != "increments"
-        looked_at = step.at == "events" or self.heated or self.prepared.turns
+        looked_at = step.at == "events" or self.heated or self.prepared.turns or self.prepared.solver.paths is None
         return steady and alike and exact and not looked_at
 
     def blocks(self) -> None:

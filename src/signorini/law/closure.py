@@ -298,9 +298,16 @@ class PairClosure:
         """
         if self.springs is None:
             return None
-        peak = pressure if before is None else np.maximum(before.pressure, pressure)
-        lost = np.where(self.springs > 0.0, self.energy(peak) - self.springs * peak**2 / 2.0, 0.0)
-        return Borne(pressure=frozen(peak), taken=frozen(area * lost))
+        if before is None:
+            before = Borne(pressure=np.zeros_like(pressure), taken=np.zeros_like(pressure))
+        peak = np.maximum(before.pressure, pressure)
+        lost = np.where(peak > before.pressure, self._lost(peak) - self._lost(before.pressure), 0.0)
+        return Borne(pressure=frozen(peak), taken=frozen(before.taken + area * lost))
+
+    def _lost(self, peak: Array) -> Array:
+        """(n,) Energy per area that pairs keep of what took them to their largest pressures (n,)."""
+        assert self.springs is not None
+        return np.where(self.springs > 0.0, self.energy(peak) - self.springs * peak**2 / 2.0, 0.0)
 
     def among(self, kept: BoolArray) -> PairClosure:
         """The closures of the kept pairs, (n,)."""

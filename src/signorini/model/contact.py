@@ -157,15 +157,13 @@ class Contact:
             )
 
     def _check_closure(self, closure: Closure) -> None:
-        """What lies between sides that neither wear nor slide far, and closes by one law."""
+        """What lies between sides closes by one law."""
         if not isinstance(closure, Closure):
             raise InputError(f"is {closure!r}; expected a Closure", where=("closure",))
         refuse_beside(
             "closure",
             (self.tied, "the contact is tied"),
             (self.normal_compliance != 0.0, "normal_compliance too"),
-            (self.wear is not None, "the contact wears"),
-            (self.sliding == "finite", "the sides slide far"),
         )
 
     def _check_cohesion(self, cohesion: Cohesion) -> None:

@@ -77,3 +77,12 @@ def test_a_rigid_head_turns_by_its_finite_angle(tmp_path: Path) -> None:
     turn = np.array([[np.cos(0.5), -np.sin(0.5), 0.0], [np.sin(0.5), np.cos(0.5), 0.0], [0.0, 0.0, 1.0]])
     middle = np.array([2.0, 2.0, 2.0])
     assert moved == pytest.approx((points - middle) @ turn.T + middle - points + [0.0, 0.0, -0.002], abs=1e-12)
+
+
+def test_closures_go_with_pairs_that_follow_the_bodies(tmp_path: Path) -> None:
+    path = deck(tmp_path, "201,1,1,.3")
+    table = "PRESSURE-OVERCLOSURE=TABULAR\n0.,0.\n1.,1.E-4\n30.,2.E-4"
+    path.write_text(path.read_text().replace("PRESSURE-OVERCLOSURE=LINEAR\n1.E6", table))
+    (contact,) = sg.read(path).contacts
+    assert contact.slides
+    assert contact.closure == sg.Closure([(0.0, 0.0), (1e-4, 1.0), (2e-4, 30.0)])

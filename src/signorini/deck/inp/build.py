@@ -181,7 +181,7 @@ def _refuse_large(steps: Sequence[DeckStep], contacts: Sequence[Pair], small_str
     moving = bool(contacts) and all(pair.contact.slides or pair.contact.tied for pair in contacts)
     for step in steps:
         if step.nlgeom and not small_strain and not (moving and any(pair.contact.slides for pair in contacts)):
-            why = "here there is no contact" if not contacts else "here pairs stay (SMALL SLIDING, TABULAR)"
+            why = "here there is no contact" if not contacts else "here pairs stay (SMALL SLIDING, bonds)"
             raise step.card.error(
                 "NLGEOM asks for large displacements, which bodies have whose contact pairs follow them, not by large "
                 f"strains; {why}; --small-strain solves with small ones"

@@ -81,7 +81,7 @@ def _general(cards: Sequence[Card], known: Known, others: Sequence[Pair], *, lar
     found = list(others)
     for facing in find_facing(opening, cards, known, taken):
         law = facing.law or Interaction(card=opening)
-        follows = large and law.closure is None and law.bond is None
+        follows = large and law.bond is None
         given: dict[str, Any] = {} if law.tied else {"sliding": "finite"} if follows else {"adjust": 0.0}
         found.append(_pair(opening, facing.slave, facing.master, found, law, **_compliances(law), **given))
         yield found[-1]
@@ -103,7 +103,7 @@ def _pairs_of(
         given = _adjusted(card, slave, known)
         if (slave.name, master.name) in clearances:
             given = {"gap": clearances[slave.name, master.name][0]}
-        stays = law.tied or law.closure is not None or law.bond is not None
+        stays = law.tied or law.bond is not None
         if large and not stays and "SMALL SLIDING" not in card.parameters:
             given["sliding"] = "finite"
         given |= _compliances(law)
