@@ -5,127 +5,128 @@ With ``K u = f + B^T r`` and ``h = B u + C r + g`` a parameter changes K by K', 
 
     h' = B K^-1 (f' + B'^T r - K' u) + B' u + C' r + g',
 
-and an output that changes with h by J and with resultants by j changes with w, ``K w = B^T J + Z j``, by
-
-    w . (f' + B'^T r - K' u) + J . (B' u + C' r + g').
-
-Sums of that over points are of low rank: displacements are substituted for as few combinations of them as matter.
+which is linear in the states of the history: it is found for as few combinations of them as there are, all at once, and
+kept. An output that changes with h by J and with resultants by j changes by ``J . h' + j . Z^T (f' + B'^T r - K' u)``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
+from signorini.derivative.body_side import BodySide
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.low_rank import Combination, combinations
+from signorini.derivative.low_rank import StateColumns, state_columns
 from signorini.derivative.pair_change import PairChange
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import Adjoint, BoundTerm
-from signorini.derivative.view import HistoryView, displacements
-from signorini.engine.condensation import whole_stiffness
-from signorini.engine.examine import Examined, examine
+from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
-from signorini.model.model import Model
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BodyChange:
-    """A parameter of bodies, by differences of the assembled model at both sides of it.
+    """A parameter of bodies, by differences of what is assembled of them at both sides of it.
 
     Attributes
     ----------
-    low, high : the model examined there
+    prepared : the model as it is, whose loads may be multiplied
+    low, high : bodies and pairs at both sides
     step : half of what the parameter differs by between them
-    multiplied : by load, what a prepared model multiplies it by
+    tilts : whether pairs may see the bodies otherwise
     """
 
-    low: Examined
-    high: Examined
+    prepared: Prepared
+    low: BodySide
+    high: BodySide
     step: float
-    multiplied: Mapping[str, float]
-
-    @classmethod
-    def of(cls, prepared: Prepared, low: Model, high: Model, step: float) -> BodyChange:
-        """Of models at both sides of the parameter.
-
-        Parameters
-        ----------
-        prepared : the model as it is, whose loads may be multiplied; temperatures are so in the models
-        low, high, step : as of the attributes
-        """
-        hot = {load.label for load in prepared.model.loads if load.temperature is not None}
-        multiplied = {name: factor for name, factor in prepared.multiplied.items() if name not in hot}
-        return cls(low=examine(low), high=examine(high), step=step, multiplied=multiplied)
+    tilts: bool
+    _moved: dict[TapePoint, tuple[Array, Array]] = field(default_factory=dict, init=False)
 
     @cached_property
     def stiffness(self) -> sp.csr_array:
         """(dofs, dofs) K'."""
-        return sp.csr_array((whole_stiffness(self.high) - whole_stiffness(self.low)) / (2.0 * self.step))
+        return self.low.stiffness_change(self.high) / (2.0 * self.step)
 
     @cached_property
     def loads(self) -> Mapping[str, Array]:
         """(dofs,) f' at factor 1, of loads that change."""
+        multiplied = self.prepared.multiplied
         found = {
-            name: self.multiplied.get(name, 1.0) * (f - self.low.loads[name]) / (2.0 * self.step)
+            name: multiplied.get(name, 1.0) * (f - self.low.loads[name]) / (2.0 * self.step)
             for name, f in self.high.loads.items()
         }
         return {name: f for name, f in found.items() if f.any()}
 
     @cached_property
-    def pairs(self) -> PairChange:
-        """What it changes of the pairs."""
-        return PairChange.between(self.low.interface, self.high.interface, self.step)
+    def pairs(self) -> PairChange | None:
+        """What it changes of the pairs; None where that is nothing."""
+        if not self.tilts:
+            return None
+        found = PairChange.between(self.low.interface, self.high.interface, self.step)
+        return found if found.any else None
 
     def moved(self, points: Sequence[TapePoint]) -> list[tuple[Array, Array]]:
         """Motions of the pairs and resultants."""
-        found = []
+        missing: dict[tuple[int, ...], list[TapePoint]] = {}
         for point in points:
-            system = point.system
-            prepared, response = system.prepared, system.condensed.response
-            u, r = displacements([point]), (system.root * point.r).reshape(-1, 1)
-            forces = (self.pairs.on_bodies(system, r) - self.stiffness @ u)[:, 0]
-            for name, f in self.loads.items():
-                forces += point.load.factors.get(name, 0.0) * f
-            load = system.condensed.reduce(prepared.constraints.on_free(forces)).load
-            motion = response.moved(load) + self.pairs.motions(system, u, r)[:, 0]
-            found.append((motion.reshape(point.r.shape), response.resultant(load)))
-        return found
+            if point not in self._moved:
+                missing.setdefault(point.system.bodies, []).append(point)
+        for own in missing.values():
+            system = own[0].system
+            motion = np.zeros((system.directions * system.pairs, len(own)))
+            resultant = np.zeros((system.motions, len(own)))
+            for states in state_columns(own):
+                of_motion, of_resultant = self._of(system, states)
+                motion += of_motion @ states.shares
+                resultant += of_resultant @ states.shares
+            rows = (system.directions, system.pairs)
+            self._moved.update({point: (motion[:, i].reshape(rows), resultant[:, i]) for i, point in enumerate(own)})
+        return [self._moved[point] for point in points]
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What areas change of the friction."""
-        return self.pairs.bound(system)
+        return None if self.pairs is None else self.pairs.bound(system)
 
     def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
         """What it changes of an output through all points, its friction apart."""
         found = 0.0
-        for combination in combinations(points, adjoint):
-            found += self._of(combination)
+        at_once = self.moved([points[i] for i in adjoint.terms])
+        for term, (motion, resultant) in zip(adjoint.terms.values(), at_once, strict=True):
+            found += float(np.vdot(term.motion, motion) + term.resultant @ resultant)
+        for i, y in adjoint.pulled.items():
+            for states in state_columns([points[i]]):
+                forces = self._forces(points[i].system, states) @ states.shares
+                found += float(y @ points[i].system.prepared.constraints.on_free(forces[:, 0]))
         return found
 
     def views(self, view: HistoryView) -> tuple[HistoryView, HistoryView]:
         """What outputs are read from at both sides of the parameter, motions and forces as they are."""
-        low, high = (
-            replace(view, model=side.model, space=side.space, interface=side.interface)
-            for side in (self.low, self.high)
-        )
+        low, high = (replace(view, model=side.model, space=side.space) for side in (self.low, self.high))
+        if self.pairs is not None:
+            return replace(low, interface=self.pairs.low), replace(high, interface=self.pairs.high)
         return low, high
 
-    def _of(self, combination: Combination) -> float:
-        """Of combinations of points of one system: ``w . (f' + B'^T r - K' u) + J . (B' u + C' r + g')``."""
-        system, w, u = combination.system, combination.adjoint, combination.displacement
-        found = -float(np.vdot(w, self.stiffness @ u))
+    def _forces(self, system: InterfaceSystem, states: StateColumns) -> Array:
+        """(dofs, k) ``f' + B'^T r - K' u``."""
+        forces = self.stiffness @ states.displacement
+        np.negative(forces, out=forces)
         for name, f in self.loads.items():
-            found += float((f @ w) @ combination.factor(name))
-        if self.pairs.any:
-            r = combination.forces.reshape(-1, w.shape[1])
-            moved = self.pairs.motions(system, u, r)
-            moved[: system.pairs] += np.outer(self.pairs.gap[system.active], combination.one - 1.0)
-            found += float(np.vdot(w, self.pairs.on_bodies(system, r)))
-            found += float(np.vdot(combination.motion.reshape(r.shape), moved))
-        return found
+            forces += np.outer(f, states.factor(name))
+        if self.pairs is not None:
+            forces += self.pairs.on_bodies(system, states.forces)
+        return np.asarray(forces)
+
+    def _of(self, system: InterfaceSystem, states: StateColumns) -> tuple[Array, Array]:
+        """(d a, k) Motions of the pairs, and (motions, k) resultants."""
+        condensed = system.condensed
+        load = condensed.reduce(system.prepared.constraints.on_free(self._forces(system, states))).load
+        motion = condensed.response.moved(load)
+        if self.pairs is not None:
+            motion = motion + self.pairs.motions(system, states.displacement, states.forces, states.one)
+        return motion, condensed.response.resultant(load)

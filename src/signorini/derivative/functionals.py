@@ -176,7 +176,7 @@ def _half_width(output: HalfWidth, view: HistoryView, r: Array, none: Array) -> 
     own, interface = view.pairs(output.contact), view.interface
     if view.model.dimension == 3:
         raise InputError("half-widths are of contacts in the plane or axisymmetric")
-    places, of_r = view.model.mesh.points[interface.node[own]], np.zeros_like(r)
+    places, of_r = view.space.mesh.points[interface.node[own]], np.zeros_like(r)
     force = r[0, own]
     total = float(force.sum())
     if total <= 0.0:

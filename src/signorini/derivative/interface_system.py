@@ -85,7 +85,13 @@ class InterfaceSystem:
         self.motions = self.law.image.R.shape[1]
         self._responses = Responses(self.law) if self.law.piecewise_linear else None
         self._units: dict[str, UnitLoad] = {}
+        self._inside: dict[str, Array] = {}
         self._tangent: tuple[Tangent, LinearSystem] | None = None
+
+    @property
+    def bodies(self) -> tuple[int, ...]:
+        """Names the bodies, loads and supports under it, which several systems share."""
+        return tuple(id(part) for part in (self.condensed.response, self.prepared.loads, self.prepared.constraints))
 
     def states_of_codes(self, codes: IntArray) -> PairStates:
         """The states of codes (n,) with branches, in the plane."""
@@ -136,6 +142,13 @@ class InterfaceSystem:
                 resultant=condensed.response.resultant(load),
             )
         return self._units[name]
+
+    def inside(self, name: str) -> Array:
+        """(z,) Free displacements under a load at factor 1 while what is kept of the bodies is held, kept."""
+        if name not in self._inside:
+            reduced = self.condensed.reduce(self.prepared.constraints.on_free(self.unit(name).forces))
+            self._inside[name] = reduced.expand(np.zeros(self.condensed.factorisation.m))
+        return self._inside[name]
 
     def imposed(self, h: Array, r: Array) -> Array:
         """(d n + k,) What motions and forces, (d, n), are worth that come on top of what the states allow."""

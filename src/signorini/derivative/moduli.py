@@ -17,7 +17,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray
 from signorini.condense.response import ByNodes
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.pair_change import PairChange
+from signorini.derivative.pair_change import PairChange, between_bodies
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import Adjoint, BoundTerm
 from signorini.derivative.view import HistoryView, displacements
@@ -101,10 +101,7 @@ class ModulusChange:
     @cached_property
     def tilts(self) -> bool:
         """Whether it changes any pair: not where only obstacles lie opposite the meshed sides."""
-        model = self.prepared.model
-        obstacles = {obstacle.name for obstacle in model.obstacles}
-        opposite = [contact.mortar for contact in model.contacts]
-        return any(isinstance(side, str) and side not in obstacles for side in opposite) and self.pairs.any
+        return between_bodies(self.prepared.model) and self.pairs.any
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What areas change of the friction."""

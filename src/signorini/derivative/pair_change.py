@@ -13,6 +13,7 @@ from signorini.arrays import Array
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.recursion import BoundTerm
 from signorini.interface.interface import Interface
+from signorini.model.model import Model
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,17 +56,18 @@ class PairChange:
         """Whether anything changes."""
         return bool(self.B.data.any() or self.gap.any() or self.compliance.any())
 
-    def motions(self, system: InterfaceSystem, u: Array, r: Array) -> Array:
+    def motions(self, system: InterfaceSystem, u: Array, r: Array, one: Array) -> Array:
         """(d a, k) Motions ``B' u + C' r + g'`` of the active pairs.
 
         Parameters
         ----------
         system : the interface
         u, r : (dofs, k) displacements, (d a, k) forces
+        one : (k,) how much of the gaps is in every column
         """
         rows = system.condensed.active
         moved = (self.B @ u)[np.tile(rows, system.directions)]
-        moved[: system.pairs] += self.gap[rows][:, None]
+        moved[: system.pairs] += np.outer(self.gap[rows], one)
         return np.asarray(moved + self.compliance[:, rows].ravel()[:, None] * r)
 
     def on_bodies(self, system: InterfaceSystem, r: Array) -> Array:
@@ -90,3 +92,9 @@ class PairChange:
             setattr(term, name, (getattr(high, name) - getattr(low, name)) / (2.0 * self.step))
         term.kinks[inside] = (high.kinks[:-1][inside] - low.kinks[:-1][inside]) / (2.0 * self.step)
         return term
+
+
+def between_bodies(model: Model) -> bool:
+    """Whether a meshed side lies opposite another in any contact, not an obstacle opposite every one."""
+    obstacles = {obstacle.name for obstacle in model.obstacles}
+    return any(isinstance(contact.mortar, str) and contact.mortar not in obstacles for contact in model.contacts)

@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from signorini.arrays import Array, extent
 from signorini.derivative.body_changes import BodyChange
+from signorini.derivative.body_side import BodySide, moved_side
 from signorini.derivative.changes import FrictionChange, GapChange, LoadChange
 from signorini.derivative.moduli import ModulusChange, with_material
+from signorini.derivative.pair_change import between_bodies
 from signorini.derivative.recursion import Change
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError, one_of
@@ -75,8 +75,11 @@ def change_of(prepared: Prepared, kind: str, name: str) -> Change:
     material = model.bodies[body].material
     given = float(getattr(material, kind))
     step = _STEP if kind == "nu" else _STEP * (abs(given) or 1.0)
-    low, high = (with_material(model, body, **{kind: given + part}) for part in (-step, step))
-    return BodyChange.of(prepared, low, high, step)
+    low, high = (
+        BodySide(model=with_material(model, body, **{kind: given + part}), space=prepared.space, body=body)
+        for part in (-step, step)
+    )
+    return BodyChange(prepared=prepared, low=low, high=high, step=step, tilts=kind == "E" and between_bodies(model))
 
 
 def given_value(prepared: Prepared, kind: str, name: str) -> float:
@@ -101,10 +104,8 @@ def shape_change(prepared: Prepared, motion: Array) -> BodyChange:
     """What a motion of the nodes (nodes, d), length per unit, changes at once."""
     model = prepared.model
     step = _PART * float(extent(model.mesh.points).max()) / float(np.abs(motion).max())
-    low, high = (
-        replace(model, mesh=replace(model.mesh, points=model.mesh.points + part * motion)) for part in (-step, step)
-    )
-    return BodyChange.of(prepared, low, high, step)
+    low, high = (moved_side(prepared.space, model, part * motion) for part in (-step, step))
+    return BodyChange(prepared=prepared, low=low, high=high, step=step, tilts=True)
 
 
 def _friction(prepared: Prepared, kind: str, name: str) -> FrictionChange:

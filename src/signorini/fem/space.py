@@ -127,11 +127,15 @@ class Space:
 
     def moved(self, displacement: Array) -> Space:
         """Cells whose nodes are where a displacement (dofs,) takes them; facets are not looked for again."""
+        return self.at(self.mesh.points + self.at_nodes(displacement), displacement)
+
+    def at(self, points: Array, displacement: Array) -> Space:
+        """Cells whose nodes are at places (nodes, d), which displacements (dofs,) have brought them to, or none."""
         mesh = copy(self.mesh)  # nothing but the places is another, and nothing is to be checked again
-        object.__setattr__(mesh, "points", frozen(self.mesh.points + self.at_nodes(displacement)))
-        moved = replace(self, mesh=mesh, displacement=displacement)
-        moved.__dict__["facets"] = self.facets
-        return moved
+        object.__setattr__(mesh, "points", frozen(points))
+        found = replace(self, mesh=mesh, displacement=displacement)
+        found.__dict__["facets"] = self.facets
+        return found
 
     @property
     def undeformed(self) -> Array:

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import selection
+from signorini.arrays import Array, selection
 from signorini.fem.assembly import Cells
 from signorini.fem.assembly import stiffness as assemble
 from signorini.fem.elasticity import elasticities, law_tensor
@@ -33,9 +33,39 @@ def stiffness(space: Space, model: Model, groups: Iterable[Group] | None = None)
     space, model : the mesh and what is on it
     groups : the cells; None: all that strain
     """
-    law = law_tensor(elasticities(model), hoop=model.axisymmetric, twist=model.twists)
+    chosen = straining_groups(space, model) if groups is None else groups
+    return _assembled(space, model, chosen, elasticities(model), _bulk_moduli(model))
+
+
+def stiffness_change(space: Space, before: Model, after: Model, groups: Iterable[Group]) -> sp.csr_array:
+    """(dofs, dofs) What other materials add to the stiffness of cells; at once where that is linear in their laws.
+
+    Parameters
+    ----------
+    space : the mesh
+    before, after : models that differ in materials alone
+    groups : the cells
+    """
+    every = list(groups)
+    laws, moduli = ((of(after) - of(before)) for of in (elasticities, _bulk_moduli))
+    linear = [group for group in every if group.formulation != "incompatible"]
+    found = _assembled(space, before, linear, laws, moduli)
+    others = [group for group in every if group.formulation == "incompatible"]
+    if others:  # internal modes are eliminated
+        found = sp.csr_array(found + stiffness(space, after, others) - stiffness(space, before, others))
+    return found
+
+
+def _bulk_moduli(model: Model) -> Array:
+    """(bodies,) Force per area."""
+    return np.array([body.material.bulk_modulus for body in model.bodies])
+
+
+def _assembled(space: Space, model: Model, groups: Iterable[Group], D: Array, bulk: Array) -> sp.csr_array:
+    """(dofs, dofs) Of groups of cells under laws of the bodies, (b, 4, 4) or (b, 6, 6), with bulk moduli (b,)."""
+    law = law_tensor(D, hoop=model.axisymmetric, twist=model.twists)
     blocks = []
-    for group in straining_groups(space, model) if groups is None else groups:
+    for group in groups:
         block = group.block
         at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
         cells = Cells(
@@ -51,7 +81,6 @@ def stiffness(space: Space, model: Model, groups: Iterable[Group] | None = None)
         elif group.formulation == "mean dilatation":
             cells = cells._replace(pressures=block.pressures)
         blocks.append(cells)
-    bulk = [body.material.bulk_modulus for body in model.bodies]
     K = assemble(space.mesh.points, blocks, law, bulk=bulk, axisymmetric=model.axisymmetric)
     K.resize((space.number_of_dofs, space.number_of_dofs))  # rigid obstacles have no stiffness
     return K

@@ -60,9 +60,12 @@ class MultifrontalFactorisation:
 
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load."""
-        y = np.ascontiguousarray(as_columns(f, self.n).T[:, self.plan.order])
-        if y.any():
+        columns = as_columns(f, self.n)
+        if columns.any():
+            y = np.ascontiguousarray(columns.T[:, self.plan.order])
             self._solve(_fronts.forward, y)
+        else:
+            y = np.zeros(columns.T.shape)
         g = np.empty((self.m, len(y)))
         g[self.slots] = y[:, self.n - self.m :].T
         return Reduced(like(f, g), lambda u_c: self._expand(f, y.copy(), u_c))

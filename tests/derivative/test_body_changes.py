@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What materials and shapes change at once: states substituted back together, other laws, what is refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.derivative.low_rank import state_columns
+from signorini.derivative.view import displacements
+from signorini.fem.kinematics import straining_groups
+from signorini.fem.space import make_space
+from signorini.fem.stiffness import stiffness, stiffness_change
+from tests.derivative.rig import STEPS, rig
+
+
+def test_states_are_combinations_of_those_that_are_substituted_back():
+    """Let go and pulled again the pairs come back to where they were: fewer states than points."""
+    every = sg.solve(rig(steps=(*STEPS, STEPS[1], STEPS[2])), tape=True)._taped.view.points
+    points = [point for point in every if point.system.bodies == every[-1].system.bodies]
+    columns = list(state_columns(points))
+    assert sum(len(part.shares) for part in columns) < len(points)
+    for i, point in enumerate(points):
+        found = sum(part.displacement @ part.shares[:, i] for part in columns)
+        wanted = displacements([point])[:, 0]
+        assert found == pytest.approx(wanted, abs=1e-10 * np.abs(wanted).max())
+
+
+@pytest.mark.parametrize("formulation", ["standard", "incompatible", "mean dilatation"])
+def test_other_laws_add_the_difference_of_both_stiffnesses(formulation):
+    block = sg.Body("block", sg.Elastic(E=900.0, nu=0.25), formulation=formulation)
+    mesh = sg.rectangle(nx=2, ny=2, width=2.6)
+    before = sg.Model(replace(mesh, bodies={"block": mesh.bodies["block"]}), kind="plane strain", bodies=[block])
+    after = replace(before, bodies=[replace(block, material=sg.Elastic(E=950.0, nu=0.31))])
+    space = make_space(mesh)
+    change = stiffness_change(space, before, after, straining_groups(space, before))
+    wanted = (stiffness(space, after) - stiffness(space, before)).toarray()
+    assert change.toarray() == pytest.approx(wanted, abs=1e-10 * np.abs(wanted).max())
+
+
+def test_a_shape_that_moves_what_is_held_by_its_place_is_refused():
+    model = rig()
+    down = sg.Support("pad.top", u=(None, lambda x: -0.02 - 0.001 * x[:, 0]), name="down")
+    held = sg.solve(replace(model, supports=[down, model.supports[1]]), tape=True)
+    derivative = held.derivative(sg.pressure("joint").peak)
+    motion = np.zeros_like(model.mesh.points)
+    motion[model.mesh.nodes_of("pad.bottom")] = [0.0, 1.0]
+    assert np.isfinite(derivative.shape(motion))
+    motion[model.mesh.nodes_of("pad.top")] = [1.0, 0.0]
+    with pytest.raises(sg.InputError, match="hold by where they are"):
+        derivative.shape(motion)
