@@ -90,8 +90,8 @@ ALLOWED = {
     "gallery": BELOW_CLI | {"api"},
     "verify": BELOW_CLI | {"api", "solved", "gallery"},
     "bench": BELOW_CLI | {"api", "gallery"},
-    "moment": BELOW_CLI,
-    "solved": BELOW_CLI | {"moment"},
+    "history_moment": BELOW_CLI,
+    "solved": BELOW_CLI | {"history_moment"},
     "api": BELOW_CLI | {"solved"},
     "prepared": BELOW_CLI | {"api", "solved"},
     "__init__": BELOW_CLI | {"solved", "api", "prepared", "gallery", "verify", "bench"},
@@ -385,6 +385,11 @@ def broken(rule):
 def test_rooms_keep_the_rules(rule):
     wrong = [line for lines in broken(rule).values() for line in lines]
     assert not wrong, "\n" + "\n".join(wrong)
+
+
+def test_no_module_has_the_name_of_what_is_asked_of_the_package():
+    """Imported it would take its place: ``sg.moment`` of a file moment.py."""
+    assert not {path.stem for path in ROOT.glob("*.py")} & set(signorini.__all__)
 
 
 def test_files_are_licensed_and_functions_short():

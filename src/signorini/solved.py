@@ -23,8 +23,8 @@ from signorini.errors import InputError
 from signorini.fatigue.criteria import FatigueCriterion
 from signorini.fem.path import PathResult
 from signorini.fem.stress import BodyStress
+from signorini.history_moment import HistoryMoment, body_number
 from signorini.model.fatigue import Fatigue
-from signorini.moment import HistoryMoment, body_number
 from signorini.output.archive import write_archive
 from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import write_checkpoint
