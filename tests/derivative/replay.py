@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A path replayed as an analytic function of its data, for complex steps: it shares no line with the derivatives."""
+"""Paths replayed as analytic functions of their data, for complex steps: they share no line with the derivatives."""
 
 import numpy as np
 
@@ -54,3 +54,57 @@ def condition(point, mu):
         return pair, lambda _, r, k: r[k]
     sign = -event.friction
     return pair, lambda _, r, k: mu[k] * r[k] - sign * r[n + k]
+
+
+def replayed_in_space(points, A, R, ends, mu, facets):
+    """The same in space on polygons with so many corners: all forces, motions and rigid motions in one system a piece.
+
+    A (3n, 3n), motions and forces are found as (3, n).
+    """
+    n, k, half = len(mu), R.shape[1], np.pi / facets
+    anchor, found = np.zeros((2, n), complex), []
+    for point in points:
+        first, last = ends[point.leg]
+        law = np.zeros((3 * n, 6 * n), complex)  # of r and h
+        told = np.zeros((3 * n, 2), complex)
+        for j in range(n):
+            rows = j, n + j, 2 * n + j
+            left = point.states.tangent.left[j]
+            if not point.states.tangent.closed[j]:
+                law[rows, rows] = 1.0
+                continue
+            law[j, 3 * n + j] = 1.0
+            angle = np.arctan2(point.r[2, j], point.r[1, j])
+            if left == 2:
+                for row, axis in zip(rows[1:], anchor, strict=True):
+                    law[row, 3 * n + row], told[row, 0] = 1.0, axis[j]
+            elif left == 1:
+                along = point.states.tangent.tau[:, j]
+                normal = along[1], -along[0]
+                for row, part, way, held in zip(rows[1:], normal, along, anchor[:, j], strict=True):
+                    law[n + j, row] += part
+                    law[2 * n + j, 3 * n + row] += way
+                    told[2 * n + j, 0] += way * held
+                law[n + j, j] = -np.cos(half) * mu[j]
+            else:
+                corner = 2 * half * np.round(angle / (2 * half))
+                for row, part in zip(rows[1:], (np.cos(corner), np.sin(corner)), strict=True):
+                    law[row, row], law[row, j] = 1.0, -mu[j] * part
+        matrix = np.block([[law, np.zeros((3 * n, k))], [A, -np.eye(3 * n), R], [R.T, np.zeros((k, 3 * n + k))]])
+        loads = np.stack([first, last - first], axis=-1)
+        solved = np.linalg.solve(matrix, np.concatenate([told, -loads]))
+        r, h = solved[: 3 * n].reshape(3, n, 2), solved[3 * n : 6 * n].reshape(3, n, 2)
+        part = complex(point.part)
+        if point.at_event:
+            event = point.event
+            j, of_bound = event.pair, event.start * mu[event.pair]
+            g = (
+                event.gap * h[0, j]
+                + (of_bound if event.start else event.pressure) * r[0, j]
+                + event.friction @ r[1:, j]
+            )
+            part = -g[0] / g[1]
+        here, push = h[..., 0] + part * h[..., 1], r[..., 0] + part * r[..., 1]
+        anchor = here[1:]
+        found.append((here, push, part))
+    return found

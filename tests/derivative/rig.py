@@ -59,3 +59,32 @@ def ball_rig(friction=0.3, increments=2):
             sg.Step(name="pull", scale={"pull": 1.0}, increments=increments),
         ],
     )
+
+
+def tilted_rig(friction=0.2, facets=8, steps=None):
+    """A block with four corners above a rigid plane, pressed unevenly and pulled one way and the other."""
+    block = sg.box(x=np.linspace(0, 1, 2), y=np.linspace(0, 1.2, 2), z=[0.0, 0.7])
+    x, y, z = block.points.T
+    gap = 0.002 + 0.01 * x + 0.006 * y + 0.004 * x * y
+    block = replace(block, points=np.column_stack([x, y, z + (0.7 - z) * gap]))
+    path = "exact" if facets else None
+    pulled = {"down": 1.0, "pull": 0.4}
+    return sg.Model(
+        block,
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+        supports=[sg.Support("top", u=(0.0, 0.0, -0.03), name="down")],
+        loads=[
+            sg.Load("right", traction=(9.0, 4.0, 0.0), name="pull"),
+            sg.Load("back", traction=(0.0, 11.0, 0.0), name="across"),
+        ],
+        contacts=[
+            sg.Contact(
+                "bottom", sg.Plane(point=(0, 0, 0), normal=(0, 0, 1)), friction=friction, facets=facets, name="joint"
+            )
+        ],
+        steps=steps
+        or [
+            sg.Step(name="press", scale=pulled, path=path),
+            sg.Step(name="turn", scale={"pull": 0.1, "across": 1.0}, path=path),
+        ],
+    )

@@ -66,8 +66,6 @@ def test_a_modulus_in_space():
         derivative = solution.derivative(output)
         wanted = (value(output, high) - value(output, low)) / 0.04
         assert derivative.E["pad"] == pytest.approx(wanted, rel=2e-7, abs=1e-10 * abs(derivative.value))
-    with pytest.raises(sg.InputError, match="in the plane alone"):
-        derivative.holds("E.pad")
 
 
 @pytest.mark.parametrize("friction", [0.35, 0.0])
@@ -80,10 +78,3 @@ def test_increments_in_the_plane(friction):
     solution = checked(model, outputs, lambda q: with_contact(model, interference=q), "interference.joint", 1e-8)
     holds = solution.derivative(outputs[0]).holds("interference.joint")
     assert holds.low < 0.0 < holds.high
-
-
-def test_increments_that_end_at_events_are_refused_by_name():
-    model = ball_rig()
-    model = replace(model, steps=[replace(step, increments=None) for step in model.steps])
-    with pytest.raises(sg.InputError, match=r"step .press.: .*increments that end at events"):
-        sg.solve(model, tape=True).derivative(sg.pressure("joint").peak)

@@ -9,10 +9,9 @@ import pytest
 import signorini as sg
 from signorini.derivative.points import tape_points
 from signorini.derivative.recursion import BoundTerm, Weights, backward, forward
-from signorini.friction.history.plane.responses import Responses
 from signorini.gallery.cylinder import zhu_cylinder
-from tests.derivative.replay import replayed
-from tests.derivative.rig import rig
+from tests.derivative.replay import replayed, replayed_in_space
+from tests.derivative.rig import rig, tilted_rig
 
 STEP = 1e-30  # imaginary: no digit is lost
 RAW = np.random.default_rng(7)
@@ -34,7 +33,7 @@ class Direction:
     def moved(self, points):
         found = []
         for point in points:
-            motion = (self.A @ point.r.ravel()).reshape(2, -1)
+            motion = (self.A @ point.r.ravel()).reshape(point.r.shape)
             motion[0] += self.gap
             found.append((motion / self.system.root, np.zeros(self.system.motions)))
         return found
@@ -49,17 +48,21 @@ class Direction:
         system, R = self.system, self.system.law.image.R
         gap = np.append(self.gap, np.zeros(len(R) - len(self.gap)))
         moved = np.append(gap - R @ (R.T @ gap), np.zeros(R.shape[1]))
-        free = Responses(system.law).free
+        free = system.free
         ends = [(free(leg.start.b) + 1j * STEP * moved, free(leg.segment.end.b) + 1j * STEP * moved) for leg in legs]
         A, mu = system.law.image.A + 1j * STEP * self.A, system.law.mu + 1j * STEP * self.mu
-        return [(h / system.root, r * system.root, part) for h, r, part in replayed(points, A, R, ends, mu)]
+        space = (system.law.section.sides[0],) if system.directions == 3 else ()
+        replay = replayed_in_space if space else replayed
+        return [(h / system.root, r * system.root, part) for h, r, part in replay(points, A, R, ends, mu, *space)]
 
 
-@pytest.fixture(scope="module", params=["cylinder", "rig"])
+@pytest.fixture(scope="module", params=["cylinder", "rig", "space"])
 def path(request):
     if request.param == "cylinder":
         steps = [sg.Step(scale={"cut": factor}, path="exact") for factor in (1.0, 0.3, 1.5)]
         model = zhu_cylinder(friction=0.2, steps=steps)
+    elif request.param == "space":
+        model = tilted_rig()
     else:
         model = rig()
         held = replace(model.supports[0], u=(0.0, -0.02))

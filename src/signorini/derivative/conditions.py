@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.derivative.interface_system import PairStates
 from signorini.friction.problem import ContactProblem
+from signorini.law.bound import SIGN
 from signorini.law.states import OPEN, STICK, UNDECIDED
 
 
@@ -140,41 +141,60 @@ def plane_conditions(end: PieceEnd) -> PieceConditions:
     p, q = end.r
     codes, bound = states.codes, law.pieces
     assert codes is not None
-    n, zero, one = len(codes), np.zeros(len(codes)), np.ones(len(codes))
+    zero, one = np.zeros(len(codes)), np.ones(len(codes))
+    none, along = zero[None], one[None]
     opened, stick = codes == OPEN, (codes == STICK) & (law.law.closed == UNDECIDED) & ~law.unbounded
     slips = codes > STICK
-    rows: list[tuple[BoolArray, Array, Array, Array, int | IntArray, Array, Array, Array, Array]] = [
-        (opened, one, zero, zero, 0, zero, zero, zero, gap),
-        (~opened, zero, one, zero, 0, zero, zero, zero, p),
+    rows: list[ConditionRow] = [
+        (opened, one, zero, none, 0, zero, zero, zero, gap),
+        (~opened, zero, one, none, 0, zero, zero, zero, p),
     ]
     for j in range(bound.branches):
         has = stick & np.isfinite(bound.kinks[j])
         spare = bound.starts[j] + bound.slopes[j] * p
-        rows += [(has, zero, bound.slopes[j], -s * one, j, one, p, zero, spare - s * q) for s in (1.0, -1.0)]
+        rows += [(has, zero, bound.slopes[j], -s * along, j, one, p, zero, spare - s * q) for s in (1.0, -1.0)]
+    return gathered([*rows, *kink_rows(end, slips)], end)
+
+
+ConditionRow = tuple[BoolArray, Array, Array, Array, int, Array, Array, Array, Array]
+"""The pairs (n,) that have a condition, and of all pairs gap, pressure, friction (d - 1, n), branch, and so on."""
+
+
+def kink_rows(end: PieceEnd, slips: BoolArray) -> Iterator[ConditionRow]:
+    """Kinks of the bounds of pairs that slip, (n,), at both ends of their branches."""
+    bound, branch, p = end.law.pieces, end.states.branch, end.r[0]
+    zero, one, none = np.zeros(len(p)), np.ones(len(p)), np.zeros((len(end.r) - 1, len(p)))
     for j in range(1, bound.branches):
-        there, below = slips & (states.branch == j), slips & (states.branch == j - 1)
-        rows.append((there, zero, one, zero, j, zero, zero, -one, p - bound.kinks[j]))
-        ends = below & np.isfinite(bound.kinks[j])
-        rows.append((ends, zero, -one, zero, j, zero, zero, one, bound.kinks[j] - p))
-    pairs, parts = np.arange(n), []
-    for which, *columns in rows:
-        parts.append([pairs[which], *(np.broadcast_to(np.asarray(column), n)[which] for column in columns)])
-    pair, of_gap, of_p, of_q, branch, of_start, of_slope, of_kink, value = (
-        np.concatenate(column) for column in zip(*parts, strict=True)
+        there, below = slips & (branch == j), slips & (branch == j - 1)
+        yield there, zero, one, none, j, zero, zero, -one, p - bound.kinks[j]
+        yield below & np.isfinite(bound.kinks[j]), zero, -one, none, j, zero, zero, one, bound.kinks[j] - p
+
+
+def gathered(rows: Sequence[ConditionRow], end: PieceEnd) -> PieceConditions:
+    """The conditions of all rows, with their rates."""
+    pairs = np.concatenate([np.flatnonzero(which) for which, *_ in rows])
+    counts = [int(np.count_nonzero(which)) for which, *_ in rows]
+
+    def column(k: int) -> Array:
+        return np.concatenate([np.asarray(row[k])[..., row[0]] for row in rows], axis=-1)
+
+    found = PieceConditions(
+        pair=pairs,
+        gap=column(1),
+        pressure=column(2),
+        friction=column(3),
+        branch=np.repeat([row[4] for row in rows], counts),
+        start=column(5),
+        slope=column(6),
+        kink=column(7),
+        value=column(8),
+        rate=np.zeros(len(pairs)),
     )
-    rate = np.zeros(len(pair))
-    if end.rates is not None:
-        h_rate, r_rate = end.rates
-        rate += of_gap * h_rate[0, pair] + of_p * r_rate[0, pair] + of_q * r_rate[1, pair]
-    return PieceConditions(
-        pair=pair,
-        gap=of_gap,
-        pressure=of_p,
-        friction=of_q[None],
-        branch=branch,
-        start=of_start,
-        slope=of_slope,
-        kink=of_kink,
-        value=value,
-        rate=rate,
-    )
+    return found if end.rates is None else replace(found, rate=found.change(*end.rates))
+
+
+def plane_slips(states: PairStates, law: ContactProblem) -> tuple[IntArray, Array]:
+    """Pairs that slip in the plane and would stick, (m,), and (1, m) the way that friction lets them slip."""
+    assert states.codes is not None
+    slips = np.flatnonzero((states.codes > STICK) & (law.law.closed == UNDECIDED))
+    return slips, -SIGN[states.codes[slips]][None]

@@ -18,8 +18,9 @@ from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import LoadChange
 from signorini.derivative.functionals import value, weights
 from signorini.derivative.moduli import ModulusChange
+from signorini.derivative.one_sided import beyond
 from signorini.derivative.parameters import change_of, names_of, shape_change
-from signorini.derivative.points import TapePoint, beyond, tape_points
+from signorini.derivative.points import TapePoint, tape_points
 from signorini.derivative.recursion import Change, PointChange, forward
 from signorini.derivative.refusals import refuse_tape
 from signorini.derivative.validity import PathEdge, edges, on_edge, validity
@@ -76,7 +77,7 @@ class TapedHistory:
 
     def __init__(self, tape: Tape, model: Model) -> None:
         refuse_tape(tape, model)
-        self.view = HistoryView.of(tape_points(tape))
+        self.view, self.legs = HistoryView.of(tape_points(tape)), tape.legs
         self._edged: bool | None = None
         self._changes: dict[tuple[str, str], Change] = {}
         self._forward: dict[tuple[str, str], list[PointChange]] = {}
@@ -215,11 +216,11 @@ class Derivative:
         own = self._along(change)
         if not found:
             return own, own
-        other = beyond(view.points[last], found[0].condition) if len(found) == 1 and found[0].point == last else None
+        at_end = len(found) == 1 and found[0].point == last
+        other = beyond(view, found[0].condition, self._history.legs, last) if at_end else None
         if other is None:
             raise InputError(f"{found[0].words}: what '{parameter}' does on the other side is not known")
-        points = [*view.points[:last], other, *view.points[last + 1 :]]
-        across = Derivative(self._history.on(points), self.output)._along(change)
+        across = Derivative(self._history.on(other), replace(self.output, load_factor=None))._along(change)
         return (across, own) if found[0].change > 0.0 else (own, across)
 
     def holds(self, parameter: str) -> Validity:

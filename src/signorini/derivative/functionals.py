@@ -203,15 +203,23 @@ def _dissipation(output: Dissipation, view: HistoryView, last: int) -> tuple[flo
         seen = own & _active(view, i) & (_active(view, i - 1) if i else True)
         moved = np.where(seen, h - before, 0.0)
         moved[0] = 0.0
-        mean = np.where(seen, r if view.points[i].increment else 0.5 * (r + pushed), 0.0)
+        share = 0.5 + 0.5 * _late(view, i)  # of the force at the end of the piece
+        mean = np.where(seen, share * r + (1.0 - share) * pushed, 0.0)
         mean[0] = 0.0
         total -= float(np.vdot(mean, moved))
         found[i].h -= mean
-        found[i].r -= moved if view.points[i].increment else 0.5 * moved
+        found[i].r -= share * moved
         if i:
             found[i - 1].h += mean
-            found[i - 1].r -= 0.0 if view.points[i].increment else 0.5 * moved
+            found[i - 1].r -= (1.0 - share) * moved
     return total, found
+
+
+def _late(view: HistoryView, i: int) -> Array:
+    """(n,) 1 of pairs that slip under the friction at the end of a piece, 0 of those under its mean."""
+    point, late = view.points[i], np.zeros(len(view.interface))
+    late[point.system.active] = point.increment
+    return late
 
 
 def _active(view: HistoryView, i: int) -> BoolArray:

@@ -113,12 +113,16 @@ class InterfaceSystem:
         """
         if self._responses is not None:
             return self.states_of_codes(self.law.pieces.coded(codes, r[0]))
+        return self.states_of_law(r - h, r)
+
+    def states_of_law(self, y: Array, r: Array) -> PairStates:
+        """The states in space of y, and of forces r, (3, n), see `law.pair`."""
         law = self.law.law
-        tangent = law.tangent(r - h)
+        tangent = law.tangent(y)
         size = law.bound.at(np.maximum(r[0], 0.0))
-        slips = tangent.closed & (tangent.left < self.directions - 1) & (size > 0.0)
+        slips = tangent.closed & (tangent.left < 2) & (size > 0.0)
         unit = np.divide(r[1:], size, out=np.zeros_like(r[1:]), where=slips)
-        held = np.broadcast_to(tangent.closed & (tangent.left == self.directions - 1), unit.shape)
+        held = np.broadcast_to(tangent.closed & (tangent.left == 2), unit.shape)
         return PairStates(held=held, unit=unit, branch=self.law.pieces.branch(r[0]), tangent=tangent)
 
     def unit(self, name: str) -> UnitLoad:
@@ -149,6 +153,10 @@ class InterfaceSystem:
             reduced = self.condensed.reduce(self.prepared.constraints.on_free(self.unit(name).forces))
             self._inside[name] = reduced.expand(np.zeros(self.condensed.factorisation.m))
         return self._inside[name]
+
+    def free(self, b: Array) -> Array:
+        """(d n + k,) What the equations see of a load b, (d n,), scaled."""
+        return np.concatenate([self.law.free_motion(b), self.law.image.R.T @ b])
 
     def imposed(self, h: Array, r: Array) -> Array:
         """(d n + k,) What motions and forces, (d, n), are worth that come on top of what the states allow."""

@@ -10,19 +10,35 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain, pairwise
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
-from signorini.derivative.conditions import PieceConditions, PieceEnd, PieceEvent, options, plane_conditions
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.derivative.conditions import (
+    PieceConditions,
+    PieceEnd,
+    PieceEvent,
+    options,
+    plane_conditions,
+    plane_slips,
+)
 from signorini.derivative.interface_system import InterfaceSystem, PairStates
+from signorini.derivative.space_conditions import (
+    acting_pairs,
+    events_of,
+    space_conditions,
+    space_slips,
+    states_of_piece,
+)
 from signorini.engine.tape import Leg, Tape
 from signorini.errors import InputError
-from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS
+from signorini.friction.history import PathState
 from signorini.solution.state import LoadPoint
 
 _GRAZES = 1e-9  # of the fastest condition of a piece: one that hardly moves
 _STANDSTILL = 1e-13  # of a segment: a piece that is no longer
+_NOBODY: IntArray = np.zeros(0, dtype=np.int64)  # acts at a given load
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -38,9 +54,11 @@ class TapePoint:
     part : of the leg that is behind, 0 .. 1
     states : of the pairs in the piece
     h, r : (d, n) motions and forces here
-    h_rate, r_rate : (d, n) per unit of the part of the leg; None where the load is given
+    h_rate, r_rate : (d, n) per unit of the part of the leg, on a path in the plane; None elsewhere
+    load_rate : (d n + k,) in space, of what the equations see of the load on a path; None elsewhere
+    follows : whether the piece keeps its length, so that its end moves with its beginning: nothing happens there
     acting : (m,) pairs whose event it is; empty where the load is given
-    increment : whether the piece is an increment, whose friction is that of its end
+    increment : (n,) or all: whether the friction of a pair in the piece is that of its end, as in an increment
     """
 
     leg: int
@@ -54,23 +72,37 @@ class TapePoint:
     h_rate: Array | None
     r_rate: Array | None
     acting: IntArray
-    increment: bool
+    increment: bool | BoolArray
+    load_rate: Array | None = None
+    follows: bool = False
 
     @property
     def at_event(self) -> bool:
         """Whether the load here moves with what is varied."""
-        return self.h_rate is not None and len(self.acting) > 0
+        return len(self.acting) > 0
+
+    @cached_property
+    def rates(self) -> tuple[Array, Array] | None:
+        """(d, n) Of motions and forces per unit of the part of the leg; None in equal increments."""
+        if self.h_rate is not None and self.r_rate is not None:
+            return self.h_rate, self.r_rate
+        return None if self.load_rate is None else self.system.respond(self.states, self.load_rate)
 
     @cached_property
     def piece_end(self) -> PieceEnd:
         """Where the piece is left, as its conditions see it."""
-        rates = None if self.h_rate is None or self.r_rate is None else (self.h_rate, self.r_rate)
+        rates = self.rates if self.at_event or self.h_rate is not None else None
         return PieceEnd(law=self.system.law, states=self.states, h=self.h, r=self.r, rates=rates)
 
     @cached_property
     def conditions(self) -> PieceConditions:
-        """What holds in the piece, in the plane."""
-        return plane_conditions(self.piece_end)
+        """What holds in the piece."""
+        return (space_conditions if self.states.codes is None else plane_conditions)(self.piece_end)
+
+    @property
+    def slips(self) -> tuple[IntArray, Array]:
+        """Pairs that slip, (m,), and w (d - 1, m): numbers ``w . slip`` of the piece that friction keeps positive."""
+        return (space_slips if self.states.codes is None else plane_slips)(self.states, self.system.law)
 
     @cached_property
     def event(self) -> PieceEvent:
@@ -81,17 +113,22 @@ class TapePoint:
         InputError
             Where it comes to zero without speed.
         """
-        assert self.h_rate is not None
-        assert self.r_rate is not None
-        found = [event for pair in self.acting for event in options(self.piece_end, int(pair)) if event.rate < 0.0]
+        assert self.rates is not None
+        found = [event for event in self._events() if event.rate < 0.0]
         if not found:
             raise InputError(f"the event at load factor {self.load_factor:.9g} has no pair that goes through it")
         first = min(found, key=lambda event: abs(event.value / event.rate))
-        fastest = max(float(np.abs(self.h_rate[0]).max()), float(np.abs(self.r_rate).max()))
+        fastest = max(float(np.abs(self.rates[0][0]).max()), float(np.abs(self.rates[1]).max()))
         if -first.rate <= _GRAZES * fastest:
             words = f"a pair grazes its event at load factor {self.load_factor:.9g}, which it comes to without speed"
             raise InputError(f"{words}: derivatives are infinite there")
         return first
+
+    def _events(self) -> Iterator[PieceEvent]:
+        """The conditions of the acting pairs."""
+        if self.states.codes is None:
+            return events_of(self.conditions, self.acting)
+        return chain.from_iterable(options(self.piece_end, int(pair)) for pair in self.acting)
 
     @cached_property
     def shared(self) -> list[int]:
@@ -110,47 +147,18 @@ def tape_points(tape: Tape) -> list[TapePoint]:
     points: list[TapePoint] = []
     for number, leg in enumerate(tape.legs):
         system = systems.setdefault(id(leg.prepared), InterfaceSystem(leg.prepared))
-        points += _on_path(number, leg, system) if leg.segment is not None else _in_increments(number, leg, system)
+        if leg.segment is None:
+            points += _in_increments(number, leg, system)
+        else:
+            points += (_on_path if system.directions == 2 else _in_space)(number, leg, system)
     return points
-
-
-def beyond(point: TapePoint, condition: int) -> TapePoint | None:
-    """A point with the pair of a condition in the state that follows it; None where that is not one alone.
-
-    A pair that closes may stick or slip, either way, as the parameter has it.
-    """
-    known, codes = point.conditions, point.states.codes
-    if codes is None or known.gap[condition] or known.kink[condition]:
-        return None
-    pair, after = known.pair[condition], codes.copy()
-    friction = known.friction[0, condition]
-    slips = (SLIP_PLUS if friction < 0.0 else SLIP_MINUS) + 2 * known.branch[condition]
-    after[pair] = slips if friction else OPEN
-    return replace(point, states=point.system.states_of_codes(after))
 
 
 def _on_path(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:
     """The points of a leg that was followed exactly; overlaps that press at its beginning are an increment."""
     assert leg.segment is not None
-    assert leg.start is not None
-    start, point = leg.start, leg.before.point
-    nobody = np.zeros(0, dtype=np.int64)
-    if start.r.any() and not leg.before.forces.any():
-        states = system.states_of_codes(start.state)
-        yield TapePoint(
-            leg=number,
-            system=system,
-            load=point,
-            load_factor=leg.low,
-            part=0.0,
-            states=states,
-            h=start.h,
-            r=start.r,
-            h_rate=None,
-            r_rate=None,
-            acting=nobody,
-            increment=True,
-        )
+    point = leg.before.point
+    yield from _pressed(number, leg, system)
     # a leg whose end wakes a body that rests ends at an event, and is the part of the segment up to there
     pieces, reach, whole = leg.segment.pieces, leg.segment.pieces[-1].factor, leg.segment.followed
     before = 0.0
@@ -172,10 +180,74 @@ def _on_path(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoi
                 r=piece.r,
                 h_rate=reach * piece.rates.h,
                 r_rate=reach * piece.rates.r,
-                acting=piece.acting if moves else nobody,
+                acting=piece.acting if moves else _NOBODY,
                 increment=False,
             )
         before = piece.factor
+
+
+def _pressed(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:
+    """What overlaps at the beginning of a leg that was followed, and presses: an increment."""
+    start, space = leg.start, system.directions == 3
+    assert start is not None
+    if start.r.any() and not leg.before.forces.any():
+        none = np.zeros_like(start.h)
+        yield TapePoint(
+            leg=number,
+            system=system,
+            load=leg.before.point,
+            load_factor=leg.low,
+            part=0.0,
+            states=states_of_piece(system.law, start.state, (none, none), (start.h, start.r))
+            if space
+            else system.states_of_codes(start.state),
+            h=start.h,
+            r=start.r,
+            h_rate=None,
+            r_rate=None,
+            acting=_NOBODY,
+            increment=True,
+        )
+
+
+def _in_space(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:
+    """The points of a leg in space that was followed to events: some of its pieces end where nothing happens."""
+    assert leg.segment is not None
+    assert leg.start is not None
+    yield from _pressed(number, leg, system)
+    pieces, reach, whole = leg.segment.pieces, leg.segment.pieces[-1].factor, leg.segment.followed
+    point, load_rate = leg.before.point, system.free(leg.segment.end.b - leg.start.b)
+    for before, piece in pairwise(pieces):
+        assert piece.state is not None
+        part = piece.factor / reach
+        start = before.h, before.r
+        found = TapePoint(
+            leg=number,
+            system=system,
+            load=point.towards(leg.end, part),
+            load_factor=leg.low + part * (leg.high - leg.low),
+            part=part,
+            states=states_of_piece(system.law, piece.state.state, start, (piece.h, piece.r)),
+            h=piece.h,
+            r=piece.r,
+            h_rate=None,
+            r_rate=None,
+            acting=_NOBODY,
+            increment=_late(before.state, piece.state),
+            load_rate=load_rate,
+        )
+        if piece.factor < 1.0 or not whole:
+            acting = acting_pairs(found.conditions, start, found.piece_end)
+            found = replace(found, acting=acting, follows=not len(acting))
+        yield found
+
+
+def _late(before: PathState | None, after: PathState) -> BoolArray:
+    """(n,) Pairs that friction took work from as if they had slipped under that of the end of the piece."""
+    assert before is not None
+    moved, taken = after.h[1:] - before.h[1:], after.dissipation - before.dissipation
+    at_end, in_mean = (-(r[1:] * moved).sum(axis=0) for r in (after.r, 0.5 * (before.r + after.r)))
+    return np.asarray(np.abs(taken - at_end) < np.abs(taken - in_mean), dtype=np.bool_)
 
 
 def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:
@@ -196,6 +268,6 @@ def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[T
             r=r,
             h_rate=None,
             r_rate=None,
-            acting=np.zeros(0, dtype=np.int64),
+            acting=_NOBODY,
             increment=True,
         )

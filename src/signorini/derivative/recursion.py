@@ -144,11 +144,14 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
         if at_once:
             load += system.condensed.free(*at_once[i])
         h, r = system.respond(states, load)
-        h, r, part = h + held, r + given, 0.0
+        h, r = h + held, r + given
+        part = found[-1].part if point.follows and i and points[i - 1].leg == point.leg else 0.0
         if point.at_event:
             event = point.event
             part = -(event.change(h, r) + (0.0 if bound is None else _of_bound(event, bound))) / event.rate
-            h, r = h + part * _rate(point.h_rate), r + part * _rate(point.r_rate)
+        if part:
+            h_rate, r_rate = _rates(point)
+            h, r = h + part * h_rate, r + part * r_rate
         whole = np.zeros((2, *every))
         whole[0][:, system.active], whole[1][:, system.active] = h / system.root, r * system.root
         memory = whole[0, 1:]
@@ -167,6 +170,7 @@ def backward(points: Sequence[TapePoint], weights: Mapping[int, Weights]) -> Adj
     terms: dict[int, PointTerm] = {}
     bounds: dict[InterfaceSystem, BoundTerm] = {}
     memory: Array | None = None
+    moves = 0.0  # how the output changes with the part of the leg that is behind where the next piece begins
     for i in range(max(weights, default=-1), -1, -1):
         point = points[i]
         system, states = point.system, point.states
@@ -179,10 +183,14 @@ def backward(points: Sequence[TapePoint], weights: Mapping[int, Weights]) -> Adj
         memory = np.zeros_like(memory)
         held = np.where(states.held, h[1:], 0.0)
         h[1:] -= held
-        if h.any() or r.any():
+        moves = moves if i + 1 < len(points) and points[i + 1].leg == point.leg else 0.0
+        if h.any() or r.any() or moves:
             known = bounds.setdefault(system, BoundTerm.of(system.law.pieces))
+            if point.at_event or point.follows:
+                h_rate, r_rate = _rates(point)
+                moves += float(np.vdot(h, h_rate) + np.vdot(r, r_rate))
             if point.at_event:
-                _through_event(point, h, r, known)
+                _through_event(point, h, r, known, moves)
             free = system.respond_transposed(states, h, r)
             motion, resultant = system.condensed.free_transposed(free)
             terms[i] = PointTerm(motion=motion, resultant=resultant)
@@ -191,6 +199,7 @@ def backward(points: Sequence[TapePoint], weights: Mapping[int, Weights]) -> Adj
             pushed = r + (image.A @ c + image.R @ free[rows:]).reshape(r.shape)
             _of_friction(point, (states.unit * pushed[1:]).sum(axis=0), known)
             held += (h - c.reshape(h.shape))[1:]
+        moves = moves if point.follows else 0.0
         memory[:, system.active] = system.root * held
     return Adjoint(terms=terms, bounds=bounds)
 
@@ -225,11 +234,14 @@ def _of_bound(event: PieceEvent, bound: BoundTerm) -> float:
     return float(event.start * bound.starts[at] + event.slope * bound.slopes[at] + event.kink * bound.kinks[at])
 
 
-def _through_event(point: TapePoint, h: Array, r: Array, term: BoundTerm) -> None:
-    """Turn how an output changes with what is at an event into how it changes with what is at its load, in place."""
+def _through_event(point: TapePoint, h: Array, r: Array, term: BoundTerm, moves: float) -> None:
+    """Turn how an output changes with what is at an event into how it changes with what is at its load, in place.
+
+    ``moves`` is how it changes with the part of the leg that is behind.
+    """
     event = point.event
     at = event.branch, event.pair
-    share = -float(np.vdot(h, _rate(point.h_rate)) + np.vdot(r, _rate(point.r_rate))) / event.rate
+    share = -moves / event.rate
     h[0, event.pair] += share * event.gap
     r[0, event.pair] += share * event.pressure
     r[1:, event.pair] += share * event.friction
@@ -238,7 +250,7 @@ def _through_event(point: TapePoint, h: Array, r: Array, term: BoundTerm) -> Non
     term.kinks[at] += share * event.kink
 
 
-def _rate(rate: Array | None) -> Array:
-    """(d, n) A rate of an exact path."""
-    assert rate is not None
-    return rate
+def _rates(point: TapePoint) -> tuple[Array, Array]:
+    """(d, n) Rates of motions and forces at an event."""
+    assert point.rates is not None
+    return point.rates

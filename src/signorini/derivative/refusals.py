@@ -30,7 +30,7 @@ def refuse_model(model: Model) -> None:
 
 
 def refuse_tape(tape: Tape, model: Model) -> None:
-    """Refuse a history that was followed otherwise than exactly or in equal increments, or from an unknown beginning.
+    """Refuse a history that was followed otherwise than exactly or in increments, or from an unknown beginning.
 
     Raises
     ------
@@ -52,14 +52,10 @@ def refuse_tape(tape: Tape, model: Model) -> None:
             raise InputError(f"{leg.where}: contact was solved on the bodies as they are; {_UNKNOWN} that")
         if prepared.resting.any():
             raise InputError(f"{leg.where}: {_UNKNOWN} bodies that rest where they were left")
-        if leg.segment is not None and prepared.interface.directions == 3:
-            raise InputError(f"{leg.where}: {_UNKNOWN} exact paths in space; give the step a number of increments")
 
 
 def _what_was_lost(model: Model) -> str:
     """What in a step is none of what derivatives go through."""
     if any(step.release or step.hold or step.restore or step.inactive or step.active for step in model.steps):
         return "supports and contacts that change from step to step"
-    if model.dimension == 3 and not all(isinstance(step.increments, int) for step in model.steps):
-        return "increments that end at events; give the steps a number of increments"
     return "jumps, bodies that a load carries until they touch, and friction that is lowered under load"

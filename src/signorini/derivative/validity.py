@@ -12,9 +12,6 @@ from signorini.arrays import Array, IntArray
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import PointChange, change_of_conditions
 from signorini.derivative.view import HistoryView
-from signorini.errors import InputError
-from signorini.law.bound import SIGN
-from signorini.law.states import STICK, UNDECIDED
 from signorini.solution.sensitivities import Validity
 
 _SHARED_EVENT = 1e-7  # of the largest move of an event: by how much events that share a load may move apart
@@ -28,14 +25,7 @@ def validity(view: HistoryView, changes: Sequence[PointChange]) -> Validity:
     ----------
     view : the history
     changes : what the parameter changes at every point
-
-    Raises
-    ------
-    InputError
-        In space, where pairs have no few states that could change.
     """
-    if view.interface.directions == 3:
-        raise InputError("intervals of parameters are known in the plane alone, where pairs have few states")
     low, high, ends = -np.inf, np.inf, ["", ""]
     for edge in edges(view, changes):
         which = 0 if edge.change > 0.0 else 1
@@ -71,7 +61,7 @@ class PathEdge:
 
 def on_edge(point: TapePoint) -> list[int]:
     """Numbers of the conditions that vanish at a given load; at an event those beyond that of the event."""
-    if point.states.codes is None:
+    if point.follows:
         return []
     if point.at_event:
         return point.shared if len(point.acting) > 1 else []
@@ -116,11 +106,9 @@ def _conditions(
         words = _words(view, point, known.pair[named], _what(point, named))
         yield known.value[there], change_of_conditions(point, change)[there], words
         moved = view.motions(i)
-        codes, active = point.states.codes, point.system.active
-        assert codes is not None
-        slips = np.flatnonzero((codes > STICK) & (point.system.law.law.closed == UNDECIDED))
+        (slips, ways), active = point.slips, point.system.active
         away, rate = (
-            -SIGN[codes[slips]] * (now - then)[1, active[slips]]
+            (ways * (now - then)[1:, active[slips]]).sum(axis=0)
             for now, then in ((moved, before[0]), (change.h, before[1]))
         )
         yield away, np.where(away > 0.0, rate, 0.0), _words(view, point, slips, ["sticks"] * len(slips))
@@ -146,7 +134,11 @@ def _what(point: TapePoint, numbers: IntArray) -> list[str]:
         0,
         np.where((known.friction[:, numbers] != 0.0).any(axis=0), 1, np.where(known.kink[numbers] != 0.0, 2, 3)),
     )
-    return [("closes", "slips", "comes to a kink of its friction", "opens")[kind] for kind in kinds]
+    tangent = point.states.tangent
+    if tangent is not None:
+        kinds[(kinds == 1) & (tangent.left[known.pair[numbers]] == 1)] = 4
+    words = ("closes", "slips", "comes to a kink of its friction", "opens", "comes to a corner of its polygon")
+    return [words[kind] for kind in kinds]
 
 
 def _words(view: HistoryView, point: TapePoint, pairs: IntArray, what: Sequence[str]) -> Callable[[int], str]:

@@ -255,7 +255,7 @@ def _part_along(path: _Path) -> FollowedPart:
         events=_events(path),
         notes=tuple(f"{part.where}: {spent}" for spent in segment.spent),
         until=partial(_until, path) if path.stops is None else None,
-        legs=(leg_of(part, after, start=path.start, segment=segment),) if path.stops is None and not path.lines else (),
+        legs=() if path.lines else (leg_of(part, after, start=path.start, segment=segment),),
     )
 
 

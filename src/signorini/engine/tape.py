@@ -12,7 +12,7 @@ from signorini.solution.state import LoadPoint, State
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Leg:
-    """A straight part of a history as it was followed: exactly, or in increments.
+    """A straight part of a history as it was followed: to events, or in equal increments.
 
     Attributes
     ----------
@@ -21,9 +21,9 @@ class Leg:
     before, after : states at the ends
     end : the point of the load history at its end
     low, high : load factors at the ends
-    start : state of the path at the beginning, in the scaled units of the law; None in increments
-    segment : the pieces of the path; None in increments
-    states : at the ends of increments; empty on a path
+    start : state of the path at the beginning, in the scaled units of the law; None in equal increments
+    segment : the pieces of the path, in space increments that end at events; None in equal increments
+    states : at the ends of equal increments; empty on a path
     """
 
     prepared: Prepared

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a history does on the side of a parameter where a pair that comes to its event at the very end goes through it.
+
+On a path the last piece ends at that event there, and one of no length follows in the states in which the path would go
+on under more load: other pairs may change theirs with it. In an increment the pair alone obeys another part of its law.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from signorini.arrays import Array
+from signorini.derivative.interface_system import PairStates
+from signorini.derivative.points import TapePoint
+from signorini.derivative.space_conditions import states_of_piece
+from signorini.derivative.view import HistoryView
+from signorini.engine.tape import Leg
+from signorini.friction.history import follow
+
+_NUDGE = 1e-9  # of the data: how far beyond its event a pair is looked at in an increment
+
+
+def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) -> list[TapePoint] | None:
+    """The points of a history on the other side of an event at their end; None where that is not known.
+
+    Parameters
+    ----------
+    view : the history
+    condition : number of that which vanishes at the last point
+    legs : straight parts of the history
+    last : number of that point
+    """
+    *before, point = view.points[: last + 1]
+    pair = int(point.conditions.pair[condition])
+    if point.rates is None:
+        states = _nudged(point, view.motions(last - 1)[1:] if last else None, condition)
+        return [*before, replace(point, states=states)]
+    on = _gone_on(point, legs[point.leg])
+    if on is None:
+        return None
+    event = replace(point, acting=np.array([pair]), follows=False)
+    return [*before, event, replace(point, states=on, h_rate=None, r_rate=None, load_rate=None)]
+
+
+def _gone_on(point: TapePoint, leg: Leg) -> PairStates | None:
+    """The states in which the path of a leg would go on; None where it does not, or turns on its cones."""
+    assert leg.start is not None
+    assert leg.segment is not None
+    law, end = point.system.law, leg.segment.end
+    if point.states.codes is None and (law.law.rubs & (law.section.sides == 0)).any():
+        return None
+    pieces = follow(law, end, 2.0 * end.b - leg.start.b, leaves=lambda _: True).pieces
+    if len(pieces) < 2 or pieces[1].state is None:
+        return None
+    state, now = pieces[1].state, (pieces[1].h, pieces[1].r)
+    if point.states.codes is None:
+        return states_of_piece(law, state.state, (end.h, end.r), now)
+    return point.system.states_of_codes(state.state)
+
+
+def _nudged(point: TapePoint, before: Array | None, condition: int) -> PairStates:
+    """The states of an increment with that of one pair a little beyond a condition.
+
+    Parameters
+    ----------
+    point : its end
+    before : (d - 1, n) tangential motions of all pairs at its beginning, length; None: nothing has moved
+    condition : number of that which vanishes
+    """
+    system, known, states = point.system, point.conditions, point.states
+    pair, law = int(known.pair[condition]), system.law
+    tiny = _NUDGE * (law.scale or 1.0)
+    y = point.r - point.h
+    if before is not None:
+        y[1:] += system.root * before[:, system.active]
+    y[0, pair] += tiny * (known.gap[condition] - known.pressure[condition] * (not known.friction[:, condition].any()))
+    y[1:, pair] -= tiny * known.friction[:, condition]
+    if states.codes is not None:
+        codes = states.codes.copy()
+        codes[pair] = law.law.states(y)[pair]
+        return system.states_of_codes(codes)
+    found = system.states_of_law(y, point.r)
+    assert states.tangent is not None
+    assert found.tangent is not None
+    mine = np.arange(system.pairs) == pair
+    tangent, others = (
+        {name: np.where(mine, getattr(new, name), getattr(old, name)) for name in names}
+        for new, old, names in (
+            (found.tangent, states.tangent, ("closed", "left", "share", "fixed", "tau", "kappa")),
+            (found, states, ("held", "unit", "branch")),
+        )
+    )
+    return replace(states, tangent=replace(states.tangent, **tangent), **others)

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Derivatives through the events of paths in space: exact on polygons, in increments that end at events on cones."""
+
+from dataclasses import replace
+
+import pytest
+
+import signorini as sg
+from signorini.derivative.functionals import value
+from tests.derivative.rig import ball_rig, tilted_rig
+from tests.derivative.test_derivative import with_body, with_contact, with_load
+
+NODE = 4  # sticks at last, after it has slipped
+PARAMETERS = {
+    "friction.joint": (lambda model, q: with_contact(model, friction=model.contacts[0].friction + q), 1e-6),
+    "interference.joint": (lambda model, q: with_contact(model, interference=q), 1e-8),
+    "load.pull": (lambda model, q: with_load(model, 0, 1.0 + q), 1e-6),
+    "E.block": (lambda model, q: with_body(model, 0, E=1000.0 + q), 1e-3),
+    "nu.block": (lambda model, q: with_body(model, 0, nu=0.3 + q), 1e-6),
+}
+OUTPUTS = [
+    sg.pressure("joint").peak,
+    sg.traction("joint")[NODE, 0],
+    sg.motion("joint")[NODE, 1],
+    sg.moment("joint", about=(0.5, 0.6, 0.0), axis=2),
+    sg.dissipation(),
+    sg.displacement(7, along=(1.0, 0.5, 0.0)),
+]
+
+
+def change_and_differences(model, parameter, outputs):
+    change, step = PARAMETERS[parameter]
+    views = [sg.solve(change(model, q), tape=True)._taped.view for q in (-step, 0.0, step)]
+    below, here, above = ([value(output, view) for output in outputs] for view in views)
+    return [((b - a) / step, (c - b) / step) for a, b, c in zip(below, here, above, strict=True)]
+
+
+@pytest.fixture(scope="module")
+def solved():
+    model = tilted_rig()
+    return model, sg.solve(model, tape=True)
+
+
+def check(model, solution, outputs, parameter):
+    """Every output's derivative by a parameter is that of the whole program, and forwards the same."""
+    wanted = change_and_differences(model, parameter, outputs)
+    for output, (below, above) in zip(outputs, wanted, strict=True):
+        derivative = solution.derivative(output)
+        size = abs(derivative.value) / (1000.0 if parameter.startswith("E") else 1.0)
+        assert derivative.by(parameter) == pytest.approx(0.5 * (below + above), rel=1e-6, abs=1e-6 * size), output
+        if not isinstance(output, type(sg.displacement(0, (0, 0)))):
+            kind, name = parameter.split(".")
+            assert solution.tangent(**{kind: name}).of(output) == pytest.approx(derivative.by(parameter), rel=1e-9)
+
+
+@pytest.mark.parametrize("parameter", PARAMETERS)
+def test_the_derivative_is_that_of_the_whole_program(solved, parameter):
+    model, solution = solved
+    points = solution._taped.view.points
+    corners = [(tangent.closed & (tangent.left == 0)).any() for tangent in (point.states.tangent for point in points)]
+    assert any(corners)
+    assert {1, 2} <= set(points[-1].states.tangent.left)  # on edges, sticking
+    check(model, solution, OUTPUTS, parameter)
+
+
+def test_increments_that_end_at_events_on_cones():
+    """Those in which nothing happens keep their length, and so end later where an event comes later."""
+    model = ball_rig()
+    model = replace(model, steps=[replace(step, increments=None) for step in model.steps])
+    solution = sg.solve(model, tape=True)
+    points = solution._taped.view.points
+    assert any(point.at_event for point in points)
+    assert any(point.follows for point in points)
+    outputs = [sg.pressure("joint").peak, sg.force("joint", along=(1.0, 0.2, 0.3)), sg.dissipation()]
+    check(model, solution, outputs, "friction.joint")
+
+
+def test_dissipation_is_that_of_the_solution(solved):
+    _, solution = solved
+    wanted = sum(step.dissipation for step in solution.steps)
+    assert solution.derivative(sg.dissipation()).value == pytest.approx(wanted, rel=1e-12)
+
+
+def test_a_derivative_says_how_far_it_holds():
+    """On polygons: beyond its ends there are other events, or others in another order."""
+    model = tilted_rig()
+    holds = sg.solve(model, tape=True).derivative(OUTPUTS[0]).holds("friction.joint")
+    assert holds.low < 0.0 < holds.high
+
+    def states(friction):
+        points = sg.solve(with_contact(model, friction=friction), tape=True)._taped.view.points
+        return [(point.states.tangent.left.tolist(), point.acting.tolist()) for point in points]
+
+    for end, words in zip((holds.low, holds.high), holds.ends, strict=True):
+        assert states(0.2 + 0.9 * end) == states(0.2)
+        assert states(0.2 + 1.1 * end) != states(0.2), words
+
+
+@pytest.mark.parametrize("parameter", ["load.pull", "E.block"])
+def test_a_pair_that_closes_at_the_end_has_two_sides(parameter):
+    event = sg.solve(tilted_rig()).steps[0].events[-1]
+    assert event.what == "closes"
+    scale = {"down": event.load_factor, "pull": 0.4 * event.load_factor, "across": 0.0}
+    model = tilted_rig(steps=[sg.Step(scale=scale, path="exact")])
+    node = int(event.nodes[0])
+    outputs = [sg.pressure("joint")[node], sg.traction("joint")[node, 0], sg.dissipation()]
+    solution = sg.solve(model, tape=True)
+    wanted = change_and_differences(model, parameter, outputs)
+    for output, sides in zip(outputs, wanted, strict=True):
+        size = max(map(abs, sides))
+        assert solution.derivative(output).sides(parameter) == pytest.approx(sides, abs=1e-5 * size)
+        with pytest.raises(sg.InputError, match=rf"node {node + 1} of 'joint' closes .* two sides"):
+            solution.derivative(output).by(parameter)
