@@ -9,6 +9,7 @@ import pytest
 import signorini as sg
 from signorini.derivative.functionals import value
 from tests.derivative.rig import rig
+from tests.engine.test_bonds import bonded_bar
 
 
 def with_body(model, body, **changed):
@@ -260,6 +261,8 @@ def test_what_derivatives_do_not_know_is_named():
     yielding = with_body(replace(model, bodies=[model.bodies[0], block]), 1, plastic=sg.Plastic(1e4))
     with pytest.raises(sg.InputError, match="bodies that yield"):
         sg.solve(replace(model, bodies=yielding.bodies)).derivative(sg.pressure("joint").peak)
+    with pytest.raises(sg.InputError, match="contacts with bonds"):
+        sg.solve(bonded_bar(sg.Cohesion(5.0, opening=0.02), 0.012)).derivative(sg.pressure("bond").peak)
     solution = sg.solve(model, tape=True)
     for output, words in (
         (sg.pressure("hinge").peak, "hinge"),

@@ -23,6 +23,7 @@ def refuse_model(model: Model) -> None:
         ("contacts that wear", model.wears),
         ("contacts that slide far", model.slides),
         ("contacts that close by a law", any(contact.closure is not None for contact in model.contacts)),
+        ("contacts with bonds", any(contact.cohesion is not None for contact in model.contacts)),
         ("models without contacts", not model.contacts),
     ):
         if there:
