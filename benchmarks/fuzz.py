@@ -47,10 +47,8 @@ from signorini.output.archive import read_archive
 from signorini.output.checkpoint import read_checkpoint
 from signorini.output.compare import compare
 from signorini.output.folder import read_folder
-from signorini.plot.contact import draw_contacts
-from signorini.plot.field import draw_stress
-from signorini.plot.history import draw_history
 from signorini.plot.picture_data import PictureData
+from signorini.plot.pictures import picture
 
 SECONDS, MEMORY = 5, 2**30
 STUCK = 60  # seconds by the clock: what not even a signal ends
@@ -90,8 +88,8 @@ def _read(kind: str, path: Path, sound: Corpus) -> None:
         compare(read_archive(path), read_archive(sound.results / "solution.h5"))
     else:
         data = PictureData(read_folder(path))
-        for draw in (draw_contacts, draw_stress, draw_history):
-            draw(data)
+        for what in ("contact", "stress", "history"):
+            picture(data, what)
 
 
 def _try(read: Callable[[], object]) -> None:

@@ -36,10 +36,9 @@ from signorini.output.table import history_table
 from signorini.output.vtu import write_bodies
 from signorini.plasticity.fields import PlasticFields
 from signorini.plot.animation import animate_path
-from signorini.plot.contact import draw_contacts
-from signorini.plot.escape import plot_escape
+from signorini.plot.look import Look
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import literal
+from signorini.plot.pictures import VIEW, check_picture, picture
 from signorini.plot.view import write_view
 from signorini.report.page import write_report
 from signorini.solution.fatigue_result import FatigueResult
@@ -280,23 +279,74 @@ class Solution(DifferentiableHistory):
         results = self.fatigue_results
         return fatigue_fields(results, self._fields.stresses(self.last)) if results else {}
 
-    def plot(self) -> Figure:
-        """Draw pressure and friction of every contact at the end of the last step."""
-        data = PictureData(self, self._fields)
-        return literal(draw_contacts(data), data.units)
+    def plot(
+        self,
+        what: str = "contact",
+        *,
+        step: int | str | None = None,
+        load: float | None = None,
+        component: str | None = None,
+        range: tuple[float, float] | None = None,
+        zoom: Sequence[float] | None = None,
+        scale: float | None = None,
+    ) -> Figure:
+        """Draw a picture at the end of the last step, or at a moment that :meth:`at` knows, as `signorini plot` does.
 
-    def view(self, path: str | Path) -> None:
-        """Write a picture of a model in space after the last step, ``*.png``, rendered off-screen.
+        Parameters
+        ----------
+        what : "contact": pressure and friction of every contact; "stress", "displacement", "peeq" and "mesh" of the
+            bodies; "history", "wear", "fatigue", "accuracy", "escape"
+        step, load : the moment, as of :meth:`at`
+        component : of a stress, "von_mises", "principal", "least_principal" or two directions, "xy"; of a displacement,
+            "magnitude" or a direction
+        range : smallest and largest value of the colours, or of the axis of pressures
+        zoom : from and to along every direction of the picture: x and y, in space x, y and z; along a contact
+        scale : factor of displacements, 0: undeformed
+
+        Raises
+        ------
+        InputError
+            If there is no such picture, or moment, or choice of it: what is expected is named.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> block = sg.rectangle(width=2.0, height=1.0, nx=2, ny=1)
+        >>> model = sg.Model(block, bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.0))],
+        ...                  supports=[sg.Support("bottom", u=(0, 0))], loads=[sg.Load("top", pressure=3.0)])
+        >>> sg.solve(model).plot("stress", component="yy", range=(-4, 0)).axes[-1].get_ylabel()
+        'stress yy, force per area'
+        """
+        return picture(
+            self._pictured(what, Look(component=component, range=range, zoom=zoom, scale=scale), step, load), what
+        )
+
+    def _pictured(self, what: str, look: Look, step: int | str | None, load: float | None) -> PictureData:
+        """What a picture shows at a moment."""
+        check_picture(what, self, look, {"step": step, "load": load})
+        if step is None and load is None:
+            return PictureData(self, self._fields, look=look)
+        moment = self.at(step, load=load)
+        when = f"end of step '{moment.step}'" if load is None else f"step '{moment.step}' at {moment.load:.6g} of it"
+        return PictureData(self, self._fields, moment=moment, when=when, look=look)
+
+    def view(self, path: str | Path, *, step: int | str | None = None, load: float | None = None) -> None:
+        """Write a picture of a model in space, ``*.png``, rendered off-screen.
 
         Stress of the deformed bodies, pressure and friction of the contact that presses most. Needs PyVista, the extra
         ``signorini[view]``.
+
+        Parameters
+        ----------
+        path : of the file
+        step, load : the moment, as of :meth:`at`; the end of the last step if not given
 
         Raises
         ------
         InputError
             If PyVista is not installed, the model is plane, nothing was solved, or the name ends otherwise.
         """
-        write_view(PictureData(self, self._fields), Path(path))
+        write_view(self._pictured(VIEW, Look(), step, load), Path(path))
 
     def report(self, path: str | Path) -> None:
         """Write a report, one HTML file that needs nothing else: problem, results, certificate, curves, pictures.
@@ -316,7 +366,7 @@ class Solution(DifferentiableHistory):
         InputError
             If there is none.
         """
-        return literal(plot_escape(self))
+        return self.plot("escape")
 
     def animate(self, path: str | Path, *, contact: str | None = None, frames: int = 100) -> None:
         """Write a GIF of pressure, friction and slip of a contact along the whole history.

@@ -11,9 +11,6 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
-from signorini.plot.field import draw_peeq
-from signorini.plot.picture_data import PictureData
-from signorini.plot.solid import draw_solid_peeq
 from tests.output.test_keyword_files import read_frd
 
 DECK = """*NODE, NSET=ALL
@@ -214,7 +211,7 @@ def test_models_that_cannot_yield_have_nothing_of_it(tmp_path: Path) -> None:
 def test_plastic_strains_are_drawn(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(out), "--what", "peeq"]) == 0
     assert capsys.readouterr().out == f"{out / 'peeq.png'}\n"
-    figure = draw_peeq(PictureData(sg.load(out)))
+    figure = sg.load(out).plot("peeq")
     assert "equivalent plastic strain" in {axes.get_ylabel() for axes in figure.axes}
 
 
@@ -225,7 +222,7 @@ def test_plastic_strains_in_space_are_drawn_on_the_skin() -> None:
         supports=[sg.Support("left", u=(0, 0, 0))],
         loads=[sg.Load("right", traction=(1.5, 0, 0))],
     )
-    figure = draw_solid_peeq(PictureData(sg.solve(model)))
+    figure = sg.solve(model).plot("peeq")
     assert any("equivalent plastic strain on the skin" in axes.get_ylabel() for axes in figure.axes)
 
 

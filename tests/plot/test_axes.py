@@ -9,7 +9,7 @@ import pytest
 
 import signorini as sg
 from signorini.plot.curve import place_along
-from signorini.plot.field import draw_stress
+from signorini.plot.field import draw_field
 from signorini.plot.history import draw_history
 from signorini.plot.picture_data import PictureData
 from signorini.plot.style import literal
@@ -46,7 +46,7 @@ def test_axes_have_the_units_of_the_deck(leaning):
     data = PictureData(leaning)
     history = labels(literal(draw_history(data), data.units))
     assert {place, "pressure, MPa", "force on the nonmortar body, N", "dissipated, N mm"} <= history
-    assert {"x, mm", "y, mm", "von Mises stress, MPa"} <= labels(literal(draw_stress(data), data.units))
+    assert {"x, mm", "y, mm", "von Mises stress, MPa"} <= labels(literal(draw_field(data, data.stress), data.units))
 
 
 def test_without_units_the_quantity_is_said():

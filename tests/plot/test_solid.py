@@ -160,7 +160,7 @@ def solution():
 def test_a_hidden_contact_is_shown_on_its_body_alone(solution):
     from signorini.plot.picture_data import PictureData
     from signorini.plot.shots import make_shots
-    from signorini.plot.solid import draw_solid_mesh, draw_solid_stress
+    from signorini.plot.solid import draw_solid_field, draw_solid_mesh
 
     data = PictureData(solution)
     whole, near = make_shots(data)
@@ -170,7 +170,7 @@ def test_a_hidden_contact_is_shown_on_its_body_alone(solution):
     np.testing.assert_allclose(low.points[np.unique(low.pieces)][:, 2], 0.0)
     assert (low.spans(low.points) @ near.camera.towards > 0).all()
     assert whole.camera.towards[2] > 0.0
-    stress = draw_solid_stress(data)
+    stress = draw_solid_field(data, data.stress)
     assert "Block on block\ndeformed, true displacements" in stress.get_suptitle()
     assert "contact pairs" in draw_solid_mesh(data).get_suptitle()
     labels = [text.get_text() for text in draw_solid_mesh(data).legends[0].get_texts()]

@@ -9,7 +9,7 @@ import signorini as sg
 from signorini.gallery.twisted import fit_under_torque
 from signorini.plot.animation import film_of
 from signorini.plot.contact import draw_contacts
-from signorini.plot.field import draw_stress
+from signorini.plot.field import draw_field
 from signorini.plot.history import draw_history
 from signorini.plot.picture_data import PictureData
 from signorini.report.curves import forces, hysteresis, reactions
@@ -31,7 +31,7 @@ def test_both_tractions_are_drawn(twisted):
     assert {"friction traction, along the tangent", "friction traction, around the axis"} <= drawn
     assert "torque over the largest radius" in labels(draw_history(data))
     assert "friction around the axis" in sketch_contact(twisted.last.contacts[0])
-    assert draw_stress(data).axes
+    assert draw_field(data, data.stress).axes
     titles = {chart.title for chart in (*hysteresis(data), *forces(data), *reactions(data))}
     assert {"fit: torque over the largest radius over slip", "torque of held", "fit: forces"} <= titles
     with pytest.raises(sg.InputError, match="not around an axis"):

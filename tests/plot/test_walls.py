@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.plot.field import draw_mesh, draw_stress
 from signorini.plot.picture_data import PictureData
+from signorini.plot.pictures import picture
 
 PUNCH = sg.Profile([(3.0, 3.0), (3.0, 1.0), (1.0, 1.0), (1.0, 3.0)], fillet=0.2)
 
@@ -33,5 +33,5 @@ def test_closed_nodes_lie_on_the_obstacle_where_it_is_drawn(shape, u):
     assert contact.closed.sum() > 5
     assert np.abs(depth[contact.closed]).max() < allowed
     assert depth.max() < allowed
-    for draw in (draw_mesh, draw_stress):
-        assert draw(data).axes[0].get_ylim()[1] > 1.0
+    for what in ("mesh", "stress"):
+        assert picture(data, what).axes[0].get_ylim()[1] > 1.0

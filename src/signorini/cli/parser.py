@@ -11,6 +11,12 @@ from signorini._version import __version__
 from signorini.model.modes import JOINTS
 
 _PURPOSE = "Frictional elastic contact by finite elements and linear complementarity."
+PICTURES = (
+    *("contact", "stress", "displacement", "peeq", "mesh", "view", "history", "wear", "fatigue", "accuracy"),
+    "escape",
+)
+"""Of a result folder, see `plot.pictures`, which is too heavy for a parser."""
+
 _EXITS = """exit codes: 0 done (run: solved and certified), 2 the input is wrong, 3 no certified solution,
 1 a check failed or an internal error, 130 interrupted"""
 
@@ -139,11 +145,16 @@ def _add_fatigue(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> N
 def _add_plot(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
     plot = commands.add_parser("plot", parents=parents, help="draw the results in a folder")
     plot.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
-    plot.add_argument(
-        "--what",
-        choices=("contact", "stress", "peeq", "mesh", "view", "history", "wear", "fatigue", "accuracy", "escape"),
-        default="contact",
-    )
+    plot.add_argument("--what", choices=PICTURES, default="contact")
+    plot.add_argument("--step", metavar="N", help="number of a step, or its name (default: the last one)")
+    plot.add_argument("--load", type=float, metavar="X", help="part of the step that is behind, 0 to 1 (default: 1)")
+    words = "of a stress: von_mises, principal, least_principal, xx, xy, ...; of a displacement: magnitude, x, y, z"
+    plot.add_argument("--component", metavar="NAME", help=words)
+    words = "of colours, or of the axis of pressures"
+    plot.add_argument("--range", type=float, nargs=2, metavar=("MIN", "MAX"), help=words)
+    words = "part that is shown: x from and to, y from and to, in space z; along a contact of the plane from and to"
+    plot.add_argument("--zoom", type=float, nargs="+", metavar="X", help=words)
+    plot.add_argument("--scale", type=float, metavar="S", help="factor of displacements, 0: undeformed")
     plot.add_argument("-o", dest="file", metavar="FILE", help="PNG, PDF or SVG file (default: WHAT.png in DIR)")
 
     report = commands.add_parser("report", parents=parents, help="write the results in a folder as one HTML page")

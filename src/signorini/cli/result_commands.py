@@ -5,75 +5,50 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from signorini.api import dressed
 from signorini.errors import InputError
 from signorini.output.atomic_write import atomic_write
 from signorini.output.compare import compare
 from signorini.output.folder import read_folder, read_results
 from signorini.output.table import align
-from signorini.plot.accuracy import draw_accuracy
-from signorini.plot.contact import draw_contacts
-from signorini.plot.escape import plot_escape
-from signorini.plot.fatigue import draw_fatigue
-from signorini.plot.field import draw_mesh, draw_peeq, draw_stress
-from signorini.plot.history import draw_history
-from signorini.plot.picture_data import PictureData
-from signorini.plot.solid import draw_solid_mesh, draw_solid_peeq, draw_solid_stress
-from signorini.plot.style import literal
-from signorini.plot.units import units_of
-from signorini.plot.view import write_view
-from signorini.plot.wear import draw_wear
+from signorini.plot.look import Look
+from signorini.plot.pictures import VIEW, check_picture
 from signorini.report.page import write_report
-from signorini.solution.history import History
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 _FORMATS = (".png", ".pdf", ".svg")
 
 
 def plot(options: argparse.Namespace) -> int:
     """Draw, write the picture and say where it is."""
-    folder = Path(options.folder)
-    file = Path(options.file) if options.file else folder / f"{options.what}.png"
-    formats = _FORMATS[:1] if options.what == "view" else _FORMATS
+    folder, what = Path(options.folder), options.what
+    file = Path(options.file) if options.file else folder / f"{what}.png"
+    formats = _FORMATS[:1] if what == VIEW else _FORMATS
     if file.suffix.lower() not in formats:
         raise InputError(f"is '{file}'; expected a name that ends in {', '.join(formats)}", where=("-o",))
     if options.file and not file.parent.is_dir():
         raise InputError(f"there is no folder '{file.parent}'", where=("-o",))
-    history = read_folder(folder)
-    if options.what != "escape" and not history.steps:
-        why = "" if history.solved else f": the run ended with '{history.status}': {history.message}"
-        raise InputError(f"the results in '{folder}' hold no step{why}")
-    if options.what in ("contact", "history") and not history.model.contacts:
-        raise InputError(f"the results in '{folder}' have no contact to draw")
-    if options.what == "view":
-        write_view(PictureData(history), file)
-    else:
-        with atomic_write(file) as aside:
-            literal(_draw(history, options.what), units_of(history.model.units)).savefig(aside, dpi=150)
+    solution = dressed(read_folder(folder), raise_on_failure=False)
+    moment = {"step": _step(options.step), "load": options.load}
+    choices = {name: getattr(options, name) for name in ("component", "range", "zoom", "scale")}
+    try:
+        check_picture(what, solution, Look(**choices), moment, f"the results in '{folder}'")
+        if what == VIEW:
+            solution.view(file, **moment)
+        else:
+            with atomic_write(file) as aside:
+                solution.plot(what, **moment, **choices).savefig(aside, dpi=150)
+    except InputError as error:
+        if error.where and error.where[0] in {*moment, *choices}:
+            raise InputError(error.message, where=(f"--{error.where[0]}",)) from error
+        raise
     print(file)
     return 0
 
 
-def _draw(history: History, what: str) -> Figure:
-    if what == "escape":
-        return plot_escape(history)
-    data = PictureData(history)
-    if what == "stress":
-        return draw_solid_stress(data) if data.solid else draw_stress(data)
-    if what == "peeq":
-        return draw_solid_peeq(data) if data.solid else draw_peeq(data)
-    if what == "mesh":
-        return draw_solid_mesh(data) if data.solid else draw_mesh(data)
-    if what == "wear":
-        return draw_wear(data)
-    if what == "accuracy":
-        return draw_accuracy(data)
-    if what == "fatigue":
-        return draw_fatigue(data)
-    return draw_history(data) if what == "history" else draw_contacts(data)
+def _step(given: str | None) -> int | str | None:
+    """A number where it is one, otherwise a name."""
+    return int(given) if given is not None and given.isdecimal() else given
 
 
 def report(options: argparse.Namespace) -> int:

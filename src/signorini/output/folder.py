@@ -41,7 +41,7 @@ _ASIDE_PREFIX = ".writing-"  # of folders in which files are written before they
 _OWN_NAMES = re.compile(
     r"(summary\.json|(contact|history|fatigue)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.(vtu|pvd)|"
     r"solution\.(pvd|h5|frd|dat)|"
-    r"(contact|stress|peeq|mesh|view|history|wear|fatigue|escape)\.png|report\.html|"
+    r"(contact|stress|displacement|peeq|mesh|view|history|wear|fatigue|accuracy|escape)\.png|report\.html|"
     r"(modes|damping|loops)\.csv|modes\.vtu|(modes|damping)\.png)"
 )
 _OWN_FIELD_NAMES = re.compile(r"(solution|contact)_\d{4,}_\d{4,}\.vtu")

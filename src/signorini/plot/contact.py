@@ -14,7 +14,7 @@ from signorini.arrays import Array
 from signorini.plot.curve import Curve, closed_range
 from signorini.plot.patch import draw_patches
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import BOUND, HOOP, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle
+from signorini.plot.style import BOUND, HOOP, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle, label
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -25,16 +25,21 @@ _MAX_DOTS = 100  # nodes: more cannot be told apart as dots
 
 
 def draw_contacts(data: PictureData) -> Figure:
-    """Every contact after the last step, one below the other: as curves in the plane, in space as maps."""
+    """Every contact, one below the other: as curves in the plane, in space as maps."""
     from matplotlib.figure import Figure
 
     if data.solid:
-        return draw_patches(data.patches, data.model.title)
-    curves = data.curves(len(data.history.steps))
+        return draw_patches(data.patches, data.model.title, data.when, data.look)
+    curves = data.curves()
     figure = Figure(figsize=(7.6, 0.7 + 3.9 * max(len(curves), 1)), layout="constrained")
     panels = figure.subplots(max(len(curves), 1), squeeze=False)[:, 0]
     for axes, curve in zip(panels, curves, strict=False):
         _draw(axes, curve)
+        label(axes, title=f"{curve.contact}, {data.when}")
+        if zoom := data.look.corners("along"):
+            axes.set_xlim(*zoom[0])
+        if data.look.range is not None:
+            axes.set_ylim(*data.look.range)
     if not curves:
         panels[0].text(0.5, 0.5, "no contact", ha="center", va="center")
         panels[0].set_axis_off()
@@ -67,12 +72,7 @@ def _draw(axes: Axes, curve: Curve) -> None:
         lines += line
     if len(curve.s) > 1:
         axes.set_xlim(*closed_range(curve))
-    dress(
-        axes,
-        x=curve.place,
-        y="pressure and friction, force per area",
-        title=f"{curve.contact}, end of step '{curve.step}'",
-    )
+    dress(axes, x=curve.place, y="pressure and friction, force per area")
     states = [Patch(color=colour, label=words) for words, colour in STATUS_COLOURS.items() if words in curve.status]
     axes.legend(handles=[*lines, *states], fontsize=8.5, frameon=True, framealpha=0.92, edgecolor="none", loc="best")
 

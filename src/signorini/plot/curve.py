@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Curves of a contact at the end of a step: values over one coordinate along its surface."""
+"""Curves of a contact at one moment: values over one coordinate along its surface."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _MAX_GRAPH_LENGTH = 2.0  # times its extent: a surface that is longer is no grap
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Curve:
-    """One contact at the end of one step, in the order of the coordinate.
+    """One contact at one moment, in the order of the coordinate.
 
     Attributes
     ----------
-    contact, step : names
+    contact : its name
     axis : what the coordinate is: "x", "y", "arc length" from the end of a surface that leans or bends, or "angle in
         degrees" about the middle of a closed one
     s : (n,) increasing coordinate
@@ -35,7 +35,6 @@ class Curve:
     """
 
     contact: str
-    step: str
     axis: str
     s: Array
     pressure: Array
@@ -55,20 +54,18 @@ class Curve:
         return 0.0 < self.friction < math.inf
 
 
-def curve_of(law: Contact, contact: ContactResult, step: str, touching: BoolArray) -> Curve:
+def curve_of(law: Contact, contact: ContactResult, touching: BoolArray) -> Curve:
     """The pairs with an area of one contact of the plane.
 
     Parameters
     ----------
-    law, contact : as the model has it, and at the end of a step
-    step : name of the step
+    law, contact : as the model has it, and at the moment
     touching : (n,) pairs that touch at the end of any step, so that all steps are drawn over one coordinate
     """
     axis, s = place_along(contact.points[contact.area > 0], touching[contact.area > 0])
     own = np.flatnonzero(contact.area > 0)[np.argsort(s, kind="stable")]
     return Curve(
         contact=contact.name,
-        step=step,
         axis=axis,
         s=np.sort(s),
         pressure=contact.pressure[own],

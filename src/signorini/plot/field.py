@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.plot.picture_data import PictureData, Scalar
+from signorini.plot.components import Colours, Scalar, colours_of
+from signorini.plot.look import Look
+from signorini.plot.picture_data import PictureData
 from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, legend_below, round_number
 from signorini.plot.walls import Wall, draw_walls
 
@@ -29,59 +31,70 @@ _CUTS = {
     8: [[0, 1, 7], [1, 2, 3], [3, 4, 5], [5, 6, 7], [1, 3, 7], [3, 5, 7]],
 }
 Window = tuple[Array, Array]  # lower left and upper right corner
+_PLAIN = Look()
+_LEVELS = 25  # colours that a field is drawn with
+_BEYOND_TOL = 1e-6  # of the range of colours: values beyond it by less are rounding
 _MIN_SEEN = 0.01  # of the size of what is shown: displacements at least as large are drawn as they are
 
 
-def draw_stress(data: PictureData) -> Figure:
-    """Von Mises stress of the bodies, see `_draw_field`."""
-    return _draw_field(data, data.stress)
-
-
-def draw_peeq(data: PictureData) -> Figure:
-    """Equivalent plastic strain of the bodies, see `_draw_field`."""
-    return _draw_field(data, data.peeq)
-
-
-def _draw_field(data: PictureData, scalar: Scalar) -> Figure:
-    """A field of the last state on the deformed bodies, whole and closer, where they touch or have yielded.
+def draw_field(data: PictureData, scalar: Scalar) -> Figure:
+    """A field on the deformed bodies, whole and where they touch or have yielded, or the part that is asked for.
 
     The title says by what the displacements are multiplied. Colours end at the largest value there.
     """
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
     from matplotlib.ticker import MaxNLocator
     from matplotlib.tri import Triangulation
 
     grid = data.bodies
     displacement = grid.displacement[:, : grid.points.shape[1]]  # what goes around the axis leaves the picture as it is
-    window = _window(data, grid.points + displacement)
+    asked = _asked_window(data)
+    window = asked or _window(data, grid.points + displacement)
     shown = grid.points if window is None else np.array(window)
-    factor = drawn_factor(float(np.ptp(shown, axis=0).max()), displacement)
+    factor = drawn_factor(float(np.ptp(shown, axis=0).max()), displacement, data.look)
     moved = grid.points + factor * displacement
     inside = _inside(window, moved)
-    top, largest = float(scalar.values[inside].max()), float(scalar.values.max())
-    levels = np.linspace(0.0, max(top, 1e-300), 25)
+    colours = colours_of(scalar.values[inside], data.look.range)
+    levels = np.linspace(colours.low, colours.high, _LEVELS)
     mesh = Triangulation(moved[:, 0], moved[:, 1], triangles(data.outlines))
-    figure, panels = _canvas(moved, window, data.walls)
+    figure, panels = _canvas(moved, window, data.walls, closer_only=asked is not None)
     for axes in panels:
-        extend = "max" if largest > top else "neither"
-        field = axes.tricontourf(mesh, scalar.values, levels=levels, cmap="viridis", extend=extend)
+        axes.tricontourf(mesh, scalar.values, levels=levels, cmap=colours.map, extend="both")
         draw_edges(axes, data.outlines, moved, colour="#ffffff", alpha=0.35)
         if factor == 1.0:  # otherwise bodies are not drawn where obstacles have stopped them
             draw_walls(axes, data.walls, moved=True)
-    beyond = f" (elsewhere up to {largest:.4g})" if largest > top else ""
-    words = scalar.words.format("") + beyond
-    bar = colour_bar(figure, field, panels, words, spacing="proportional")
+    words, extend = beyond(scalar, scalar.words.format(""), colours)
+    scale = ScalarMappable(Normalize(colours.low, colours.high), colours.map)
+    bar = colour_bar(figure, scale, panels, words, extend=extend, boundaries=levels, spacing="proportional")
     bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
-    _finish(panels, "where bodies have yielded" if data.yielded.any() else "at the contact")
-    entitle(figure, data.model.title, f"deformed, {factor_words(factor)}; end of step '{data.last.name}'")
+    _finish(data, panels, "where bodies have yielded" if data.yielded.any() else "at the contact")
+    entitle(figure, data.model.title, f"{factor_words(factor)}; {data.when}")
     return figure
 
 
+def beyond(scalar: Scalar, words: str, colours: Colours) -> tuple[str, str]:
+    """Words of a colour bar and the ends at which it is open, where a field goes beyond its colours.
+
+    Parameters
+    ----------
+    scalar, words : the field, and what it is
+    colours : its range
+    """
+    low, high = float(scalar.values.min()), float(scalar.values.max())
+    room = _BEYOND_TOL * (colours.high - colours.low)
+    less, more = low < colours.low - room, high > colours.high + room
+    ends = f"{low:.4g} to {high:.4g}" if less and more else f"down to {low:.4g}" if less else f"up to {high:.4g}"
+    open_at = {(True, True): "both", (True, False): "min", (False, True): "max"}.get((less, more), "neither")
+    return words + (f" (elsewhere {ends})" if less or more else ""), open_at
+
+
 def draw_mesh(data: PictureData) -> Figure:
-    """The undeformed mesh, a colour a body, and the contact nodes with their status after the last step."""
+    """The undeformed mesh, a colour a body, and the contact nodes with their status."""
     from matplotlib.collections import PolyCollection
 
-    grid = data.bodies
-    figure, panels = _canvas(grid.points, _window(data, grid.points), data.walls)
+    grid, asked = data.bodies, _asked_window(data)
+    figure, panels = _canvas(grid.points, asked or _window(data, grid.points), data.walls, closer_only=bool(asked))
     handles = body_handles(data)
     for axes in panels:
         for cells, body in zip(data.outlines, grid.body, strict=True):
@@ -94,8 +107,8 @@ def draw_mesh(data: PictureData) -> Figure:
             drawn = axes.plot(x, y, "o", ms=4, color=STATUS_INK[words], label=f"contact node, {words}", zorder=3)
             handles += drawn if axes is panels[-1] else []
     legend_below(figure, handles)
-    _finish(panels, "at the contact")
-    entitle(figure, data.model.title, data.size)
+    _finish(data, panels, "at the contact")
+    entitle(figure, data.model.title, f"{data.size}; {data.when}")
     return figure
 
 
@@ -108,27 +121,38 @@ def body_handles(data: PictureData) -> list[Artist]:
 
 
 def factor_words(factor: float) -> str:
-    """The factor of displacements in words."""
-    return "true displacements" if factor == 1.0 else f"displacements x {factor:g}"
+    """How bodies are drawn, with displacements times a factor."""
+    if factor == 0.0:
+        return "undeformed"
+    return "deformed, true displacements" if factor == 1.0 else f"deformed, displacements x {factor:g}"
 
 
-def drawn_factor(size: float, displacement: Array) -> float:
+def drawn_factor(size: float, displacement: Array, look: Look = _PLAIN) -> float:
     """The factor of displacements: 1 where they can be seen, otherwise 1, 2 or 5 times a power of ten.
 
     Parameters
     ----------
     size : of what is shown, length
     displacement : (n, 2) length
+    look : what the reader asks for
 
     Examples
     --------
     >>> drawn_factor(10.0, np.array([[0.0, 0.001], [0.0, 0.0]]))
     200.0
     """
+    if look.scale is not None:
+        return look.scale
     largest = float(np.linalg.norm(displacement, axis=1).max())
     if largest == 0.0 or largest >= _MIN_SEEN * size:
         return 1.0
     return round_number(2.0 * _MIN_SEEN * size / largest)
+
+
+def _asked_window(data: PictureData) -> Window | None:
+    """The part that the reader asks for."""
+    corners = data.look.corners("x y")
+    return None if corners is None else (np.array(corners)[:, 0], np.array(corners)[:, 1])
 
 
 def _window(data: PictureData, points: Array) -> Window | None:
@@ -151,9 +175,16 @@ def _inside(window: Window | None, points: Array) -> BoolArray:
     return np.asarray(((points >= window[0]) & (points <= window[1])).all(axis=1))
 
 
-def _canvas(points: Array, window: Window | None, walls: list[Wall]) -> tuple[Figure, list[Axes]]:
-    """A figure of the shape of the bodies, with a second panel for the window if there is one."""
+def _canvas(points: Array, window: Window | None, walls: list[Wall], *, closer_only: bool) -> tuple[Figure, list[Axes]]:
+    """A figure of the shape of the bodies, with a second panel for the window if there is one, or of that alone."""
     from matplotlib.figure import Figure
+
+    if closer_only and window is not None:
+        size = 6.2 * np.maximum((window[1] - window[0]) / (window[1] - window[0]).max(), 0.25)
+        figure = Figure(figsize=(max(size[0], 3.5) + 2.0, size[1] + 1.4), layout="constrained")
+        axes = figure.add_subplot()
+        frame(axes, *window)
+        return figure, [axes]
 
     width, height = np.maximum(np.ptp(points, axis=0), 1e-300)
     shape = float(np.clip(height / width, 0.25, 4.0))
@@ -196,16 +227,16 @@ def draw_edges(axes: Axes, outlines: list[IntArray], points: Array, *, colour: s
         )
 
 
-def _finish(panels: list[Axes], closer: str) -> None:
+def _finish(data: PictureData, panels: list[Axes], closer: str) -> None:
     """Label the axes, frame what is not the whole; ``closer`` says what that shows."""
+    x, y = data.model.axes[0], data.model.axes[1]
     for axes in panels:
         for side in axes.spines.values():
             side.set_visible(axes is not panels[0])
             side.set_color(INK)
         axes.tick_params(colors=INK, labelsize=9)
-        label(
-            axes, x="x, length", y="y, length" if axes is panels[0] else "", title="" if axes is panels[0] else closer
-        )
+        first = axes is panels[0]
+        label(axes, x=f"{x}, length", y=f"{y}, length" if first else "", title="" if first else closer)
 
 
 def triangles(outlines: list[IntArray]) -> IntArray:

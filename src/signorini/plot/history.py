@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray, padded
 from signorini.plot.curve import Curve, closed_range
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import HOOP, INK, PRESSURE, STATUS_INK, TRACTION, dress, entitle, label
+from signorini.plot.style import HOOP, INK, PLAIN, PRESSURE, STATUS_INK, TRACTION, dress, entitle, label
 from signorini.solution.history import History
 from signorini.solution.results import OPEN, SLIP, STICK
 
@@ -42,8 +42,8 @@ def draw_history(data: PictureData) -> Figure:
             _nodes(panels[i, 1], forces, name)
         else:
             curves = [step[i] for step in ends]
-            _profiles(panels[i, 0], curves, "pressure")
-            _profiles(panels[i, 1], curves, "traction")
+            _profiles(panels[i, 0], curves, steps, "pressure")
+            _profiles(panels[i, 1], curves, steps, "traction")
         _resultants(panels[i, 2], forces, data)
         for axes in panels[i] if data.solid else panels[i, 2:]:
             axes.set_xlim(0.0, len(steps) * 1.02)
@@ -115,19 +115,22 @@ def _largest_pressure(axes: Axes, forces: ContactForces, name: str) -> None:
 def _nodes(axes: Axes, forces: ContactForces, name: str) -> None:
     """Numbers of nodes that stick and slip, from every instant back to the one before."""
     _, stick, slip = forces.counts
-    for low, high, status in ((0.0 * stick, stick, STICK), (stick, stick + slip, SLIP)):
-        axes.fill_between(forces.load, low, high, step="pre", color=STATUS_INK[status], alpha=0.6, lw=0.0, label=status)
+    slips = SLIP if np.any(forces.friction) else PLAIN
+    for low, high, status in ((0.0 * stick, stick, STICK), (stick, stick + slip, slips)):
+        if np.any(high > low):
+            ink = STATUS_INK[status]
+            axes.fill_between(forces.load, low, high, step="pre", color=ink, alpha=0.6, lw=0.0, label=status)
     axes.set_ylim(0.0, 1.15 * max(1.0, float((stick + slip).max())))
     dress(axes, y=f"nodes of '{name}', of {forces.counts[:, 0].sum():.0f}")
     axes.legend(fontsize=8.5, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
 
 
-def _profiles(axes: Axes, curves: list[Curve], what: str) -> None:
+def _profiles(axes: Axes, curves: list[Curve], steps: list[str], what: str) -> None:
     from matplotlib import colormaps
 
     colours = colormaps["viridis"](np.linspace(0.0, 0.85, len(curves)))
-    for number, (curve, colour) in enumerate(zip(curves, colours, strict=True), start=1):
-        axes.plot(curve.s, getattr(curve, what), "o-", ms=3, lw=1.5, color=colour, label=f"{number} {curve.step}")
+    for number, (curve, step, colour) in enumerate(zip(curves, steps, colours, strict=True), start=1):
+        axes.plot(curve.s, getattr(curve, what), "o-", ms=3, lw=1.5, color=colour, label=f"{number} {step}")
         if what == "traction" and curve.hoop is not None:
             axes.plot(curve.s, curve.hoop, "^--", ms=3, lw=1.2, color=colour)
     ranges = np.array([closed_range(curve) for curve in curves])
@@ -142,10 +145,10 @@ def _profiles(axes: Axes, curves: list[Curve], what: str) -> None:
 def _resultants(axes: Axes, forces: ContactForces, data: PictureData) -> None:
     """Normal force, friction force with its sign, torque over the radius, and dissipation, at every instant."""
     along, words = friction_direction(forces, data.solid)
-    for values, colour, mark, said in (
-        (np.linalg.norm(forces.normal, axis=1), PRESSURE, "o", "normal force"),
-        (forces.friction @ along, TRACTION, "s", f"friction force, {words}"),
-    ):
+    lines = [(np.linalg.norm(forces.normal, axis=1), PRESSURE, "o", "normal force")]
+    if np.any(forces.friction):
+        lines.append((forces.friction @ along, TRACTION, "s", f"friction force, {words}"))
+    for values, colour, mark, said in lines:
         axes.plot(forces.load, values, "-", color=colour, lw=1.5)
         axes.plot(forces.load[forces.ends], values[forces.ends], mark, color=colour, ms=5)
         axes.plot([], [], f"{mark}-", color=colour, label=said)
@@ -163,6 +166,8 @@ def _resultants(axes: Axes, forces: ContactForces, data: PictureData) -> None:
         label(beside, y="dissipated, work")
         beside.set_ylim(0.0, 1.3 * forces.dissipation.max())
         beside.spines["top"].set_visible(False)
+        beside.spines["right"].set_color(INK)
+        beside.tick_params(colors=INK, labelsize=9)
     axes.legend(handles, labels, fontsize=8.5, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from signorini.arrays import Array, IntArray
 from signorini.model.model import Model
 from signorini.plot.chart import Chart, chart_of
+from signorini.plot.look import Look
 from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, status_words
 from signorini.solution.results import OPEN, ContactResult
 from signorini.solution.surface import contact_faces
@@ -29,11 +30,11 @@ _PATCH_MARGIN = 0.35  # of the size of the closed patch: around it
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Patch:
-    """One contact in space at the end of a step, its nodes those of its faces.
+    """One contact in space at one moment, its nodes those of its faces.
 
     Attributes
     ----------
-    contact, step : names
+    contact : its name
     points : (n, 3) undeformed, length
     faces : (m, 4) indices of them, around the faces; a triangle has its last one twice
     pressure : (n,) force per area
@@ -42,7 +43,6 @@ class Patch:
     """
 
     contact: str
-    step: str
     points: Array
     faces: IntArray
     pressure: Array
@@ -61,19 +61,17 @@ class Patch:
         return rubbed[:: max(1, len(rubbed) // _MAX_ARROWS)]
 
 
-def patch_of(model: Model, contact: ContactResult, step: str) -> Patch:
+def patch_of(model: Model, contact: ContactResult) -> Patch:
     """The faces of a contact in space whose corners all have pairs.
 
     Parameters
     ----------
-    model, contact : the model, and the contact at the end of a step
-    step : name of the step
+    model, contact : the model, and the contact at the moment
     """
     faces = np.concatenate([corners[:, [0, 1, 2, -1]] for corners in contact_faces(model, contact)])
     own, index = np.unique(faces, return_inverse=True)
     return Patch(
         contact=contact.name,
-        step=step,
         points=contact.points[own],
         faces=index.reshape(-1, 4),
         pressure=contact.pressure[own],
@@ -82,29 +80,38 @@ def patch_of(model: Model, contact: ContactResult, step: str) -> Patch:
     )
 
 
-def draw_patches(patches: Sequence[Patch], title: str) -> Figure:
-    """One row a contact: pressure on the left; stick, slip and the friction as arrows on the right."""
+def draw_patches(patches: Sequence[Patch], title: str, when: str, look: Look) -> Figure:
+    """One row a contact: pressure on the left; stick, slip and the friction as arrows on the right.
+
+    Parameters
+    ----------
+    patches : the contacts
+    title : of the model
+    when : the moment in words
+    look : what the reader asks for
+    """
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(11.0, 0.7 + 4.6 * max(len(patches), 1)), layout="constrained")
     panels = figure.subplots(max(len(patches), 1), 2, squeeze=False)
     for (left, right), patch in zip(panels, patches, strict=False):
-        _pressure(figure, left, patch)
+        label(left, title=f"{patch.contact}, {when}")
+        _pressure(figure, left, patch, look)
         _status(right, patch)
         for axes in (left, right):
-            _frame(axes, patch)
+            _frame(axes, patch, look)
     entitle(figure, title)
     return figure
 
 
-def _pressure(figure: Figure, axes: Axes, patch: Patch) -> None:
+def _pressure(figure: Figure, axes: Axes, patch: Patch, look: Look) -> None:
     from matplotlib.tri import Triangulation
 
     places, triangles, pressure = _quartered(patch)
     surface = Triangulation(places[:, 0], places[:, 1], triangles)
-    shown = axes.tripcolor(surface, pressure, shading="gouraud", cmap="viridis", vmin=0.0)
+    low, high = look.range or (0.0, None)
+    shown = axes.tripcolor(surface, pressure, shading="gouraud", cmap="viridis", vmin=low, vmax=high)
     colour_bar(figure, shown, axes, "pressure, force per area")
-    label(axes, title=f"{patch.contact}, end of step '{patch.step}'")
 
 
 def _quartered(patch: Patch) -> tuple[Array, IntArray, Array]:
@@ -169,10 +176,14 @@ def _window(patch: Patch) -> tuple[Array, Array]:
     return np.maximum(low, closed.min(axis=0) - margin), np.minimum(high, closed.max(axis=0) + margin)
 
 
-def _frame(axes: Axes, patch: Patch) -> None:
-    low, high = _window(patch)
-    edge = 0.06 * (high - low).max()
-    frame(axes, low - edge, high + edge)
+def _frame(axes: Axes, patch: Patch, look: Look) -> None:
+    if corners := look.corners("right up"):
+        low, high = np.array(corners).T
+    else:
+        low, high = _window(patch)
+        edge = 0.06 * (high - low).max()
+        low, high = low - edge, high + edge
+    frame(axes, low, high)
     for side in axes.spines.values():
         side.set_visible(False)
     axes.tick_params(colors=INK, labelsize=9)

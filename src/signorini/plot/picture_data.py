@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import NamedTuple
+from typing import Protocol
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.output.fatigue_csv import fatigue_fields
-from signorini.output.fields import BodyFields, Fields
+from signorini.output.fields import BodyFields, Fields, State
+from signorini.plot.components import Scalar, displacement_component, stress_component
 from signorini.plot.curve import Curve, curve_of
+from signorini.plot.look import Look
 from signorini.plot.patch import Patch, patch_of
 from signorini.plot.skin import Skin, make_skin
 from signorini.plot.style import STATUS_INK, status_words
@@ -30,34 +32,60 @@ CELL_OUTLINES = {
 }
 """Corners of cells of the plane and the nodes between them, in the order around."""
 
+_PLAIN = Look()
 _FLOWED = 0.05  # of the largest equivalent plastic strain: pictures look at what has flowed more
 
 
-class Scalar(NamedTuple):
-    """A field of the bodies as colours show it.
+class Shown(Protocol):
+    """What pictures ask of a moment of a history, see `signorini.moment.HistoryMoment`."""
 
-    Attributes
-    ----------
-    values : (points,) >= 0
-    words : what it is, with a place for where
-    """
+    @property
+    def contacts(self) -> tuple[ContactResult, ...]:
+        """In the order of the model."""
 
-    values: Array
-    words: str
+    @property
+    def state(self) -> State:
+        """The bodies with their displacement."""
 
 
 class PictureData:
-    """What pictures show of a history and of the end of its last step, each part made when it is first asked for.
+    """What pictures show of a history at one of its moments, each part made when it is first asked for.
 
     Parameters
     ----------
     history : with a step at least
     fields : of its model, where there are any already
+    moment : that is shown; the end of the last step if there is none
+    when : the moment in words
+    look : what the reader asks for
     """
 
-    def __init__(self, history: History, fields: Fields | None = None) -> None:
-        self.history, self.model, self.last = history, history.model, history.last
-        self._fields = fields or Fields(history.model)
+    def __init__(
+        self,
+        history: History,
+        fields: Fields | None = None,
+        *,
+        moment: Shown | None = None,
+        when: str = "",
+        look: Look = _PLAIN,
+    ) -> None:
+        self.history, self.model, self.look = history, history.model, look
+        self._fields, self._moment, self._when = fields or Fields(history.model), moment, when
+
+    @property
+    def when(self) -> str:
+        """The moment in words."""
+        return self._when or f"end of step '{self.history.last.name}'"
+
+    @property
+    def contacts(self) -> tuple[ContactResult, ...]:
+        """At the moment, in the order of the model."""
+        return self.history.last.contacts if self._moment is None else self._moment.contacts
+
+    @property
+    def state(self) -> State:
+        """The bodies at the moment."""
+        return self.history.last if self._moment is None else self._moment.state
 
     @cached_property
     def units(self) -> Units:
@@ -78,12 +106,17 @@ class PictureData:
     @cached_property
     def bodies(self) -> BodyFields:
         """All bodies."""
-        return self._fields.at(self.last)
+        return self._fields.at(self.state)
 
     @property
     def stress(self) -> Scalar:
-        """Von Mises stress of the bodies."""
-        return Scalar(self.bodies.von_mises, "von Mises stress{}, force per area")
+        """The stress of the bodies that is asked for, otherwise von Mises'."""
+        return stress_component(self.bodies, self.model.kind, self.look.component)
+
+    @property
+    def displacement(self) -> Scalar:
+        """The displacement of the bodies that is asked for, otherwise its magnitude."""
+        return displacement_component(self.bodies, self.model.axes, self.look.component)
 
     @property
     def peeq(self) -> Scalar:
@@ -112,7 +145,7 @@ class PictureData:
             raise InputError(
                 "was not asked for; expected [[fatigue]] in the deck, or another picture", where=("fatigue",)
             )
-        fields = fatigue_fields(results, self._fields.stresses(self.last))
+        fields = fatigue_fields(results, self._fields.stresses(self.history.last))
         return [values for name, values in fields.items() if not name.endswith("_life")]
 
     @property
@@ -132,7 +165,7 @@ class PictureData:
     def closed(self) -> BoolArray:
         """(points,) Which points of the bodies touch."""
         found = np.zeros(len(self.bodies.points), bool)
-        for contact in self.last.contacts:
+        for contact in self.contacts:
             found |= self.points_of(contact, contact.closed)
         return found
 
@@ -141,16 +174,16 @@ class PictureData:
         """Points of the bodies with pairs, by what these do in words."""
         found: dict[str, IntArray] = {}
         for words in STATUS_INK:
-            own = [self.points_of(contact, status_words(contact) == words) for contact in self.last.contacts]
+            own = [self.points_of(contact, status_words(contact) == words) for contact in self.contacts]
             if np.any(own):
                 found[words] = np.flatnonzero(np.any(own, axis=0))
         return found
 
-    def curves(self, number: int) -> list[Curve]:
-        """Every contact of a plane model after a step, which counts from 1."""
-        step = self.history.steps[number - 1]
-        pairs = zip(self.model.contacts, step.contacts, self._touching, strict=True)
-        return [curve_of(law, contact, step.name, touching) for law, contact, touching in pairs]
+    def curves(self, number: int | None = None) -> list[Curve]:
+        """Every contact of a plane model after a step, which counts from 1; at the moment where there is no number."""
+        contacts = self.contacts if number is None else self.history.steps[number - 1].contacts
+        pairs = zip(self.model.contacts, contacts, self._touching, strict=True)
+        return [curve_of(law, contact, touching) for law, contact, touching in pairs]
 
     @cached_property
     def _touching(self) -> list[BoolArray]:
@@ -161,12 +194,12 @@ class PictureData:
     @cached_property
     def patches(self) -> list[Patch]:
         """Every contact in space."""
-        return [patch_of(self.model, contact, self.last.name) for contact in self.last.contacts]
+        return [patch_of(self.model, contact) for contact in self.contacts]
 
     @cached_property
     def walls(self) -> list[Wall]:
         """Rigid obstacles of a plane model."""
-        return walls_of(self.model, self.last)
+        return walls_of(self.model, self.state)
 
     @cached_property
     def outlines(self) -> list[IntArray]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.errors import InputError
 from signorini.plot.camera import Camera, best_view
 from signorini.plot.field import MAX_WINDOW, drawn_factor
 from signorini.plot.picture_data import PictureData
@@ -65,7 +66,12 @@ class Shot:
 
 
 def make_shots(data: PictureData) -> list[Shot]:
-    """All bodies, and a contact where that shows anything else; see :func:`whole_shot` and :func:`contact_shot`."""
+    """All bodies, and a contact where that shows anything else, or the part that the reader asks for.
+
+    See :func:`whole_shot`, :func:`contact_shot` and :func:`part_shot`.
+    """
+    if data.look.zoom is not None:
+        return [part_shot(data)]
     whole, near = whole_shot(data), contact_shot(data)
     if near is None:
         return [whole]
@@ -81,6 +87,25 @@ def whole_shot(data: PictureData) -> Shot:
     camera = best_view(skin.spans(skin.points), _stressed(data))
     nothing = np.zeros(0, np.int64)
     return Shot(title="", skin=skin, camera=camera, focus=nothing, contact=np.zeros(len(skin.body), bool))
+
+
+def part_shot(data: PictureData) -> Shot:
+    """What lies in the box that the reader asks for, from where most of its stress is seen.
+
+    Raises
+    ------
+    InputError
+        If no face of the bodies has a corner in it.
+    """
+    skin = data.skin
+    corners = np.array(data.look.corners("x y z"))
+    inside = np.all((skin.points >= corners[:, 0]) & (skin.points <= corners[:, 1]), axis=1)
+    focus = np.intersect1d(np.flatnonzero(inside), skin.pieces)
+    if not len(focus):
+        raise InputError("holds no part of the surface of a body; expected a larger box", where=("zoom",))
+    own = np.bincount(skin.face, inside[skin.pieces].any(axis=1)) > 0.0
+    camera = best_view(skin.spans(skin.points), _stressed(data) * own + 1e-300)
+    return Shot(title="", skin=skin.part(own), camera=camera, focus=focus, contact=np.zeros(int(own.sum()), bool))
 
 
 def contact_shot(data: PictureData) -> Shot | None:
@@ -103,7 +128,7 @@ def deformed(data: PictureData, shot: Shot) -> tuple[float, Array]:
     """The factor of displacements in a shot, and the points of the skin there, (n, 3)."""
     skin = data.skin
     moved = skin.values(data.bodies.displacement)
-    factor = drawn_factor(shot.size(skin.points), moved)
+    factor = drawn_factor(shot.size(skin.points), moved, data.look)
     return factor, skin.points + factor * moved
 
 
@@ -117,7 +142,7 @@ def _stressed(data: PictureData) -> Array:
 
 def _contact(data: PictureData, skin: Skin) -> tuple[str, IntArray, BoolArray]:
     """Name of the contact that presses most, its closed points, and which faces are its own, (f,)."""
-    touching = [contact for contact in data.last.contacts if contact.closed.any()]
+    touching = [contact for contact in data.contacts if contact.closed.any()]
     if not touching:
         return "", np.zeros(0, np.int64), np.zeros(len(skin.body), bool)
     contact = max(touching, key=lambda contact: contact.pressure[contact.closed].max())

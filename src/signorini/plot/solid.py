@@ -9,9 +9,10 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.plot.camera import Camera
-from signorini.plot.field import BODIES, body_handles, factor_words
+from signorini.plot.components import Scalar, colours_of
+from signorini.plot.field import BODIES, beyond, body_handles, factor_words
 from signorini.plot.paint import Paint, body_paint, paint_skin
-from signorini.plot.picture_data import PictureData, Scalar
+from signorini.plot.picture_data import PictureData
 from signorini.plot.shots import Shot, deformed, make_shots
 from signorini.plot.style import INK, SCALE, STATUS_INK, colour_bar, entitle, frame, label, legend_below, round_number
 
@@ -22,21 +23,11 @@ if TYPE_CHECKING:
 _MESH_COLOUR = (1.0, 1.0, 1.0, 0.30)  # on the dark colours of stresses
 
 
-def draw_solid_stress(data: PictureData) -> Figure:
-    """Von Mises stress of the bodies, see `_draw_field`."""
-    return _draw_field(data, data.stress)
-
-
-def draw_solid_peeq(data: PictureData) -> Figure:
-    """Equivalent plastic strain of the bodies, see `_draw_field`."""
-    return _draw_field(data, data.peeq)
-
-
-def _draw_field(data: PictureData, scalar: Scalar) -> Figure:
-    """A field of the last state on the deformed skin of the bodies, whole and at the contact.
+def draw_solid_field(data: PictureData, scalar: Scalar) -> Figure:
+    """A field on the deformed skin of the bodies, whole and at the contact, or of the part that is asked for.
 
     The title says by what the displacements are multiplied. Colours end at the largest value of the skin that is shown
-    at the contact.
+    last.
     """
     import matplotlib
     from matplotlib.cm import ScalarMappable
@@ -44,23 +35,20 @@ def _draw_field(data: PictureData, scalar: Scalar) -> Figure:
 
     values, shots = data.skin.values(scalar.values), make_shots(data)
     factor, points = deformed(data, shots[-1])
-    shown = values[shots[-1].inside(points)]
-    top, largest = float(shown.max(initial=0.0)) or 1.0, float(scalar.values.max())
-    scale, colours = Normalize(0.0, top), matplotlib.colormaps["viridis"]
+    colours = colours_of(values[shots[-1].inside(points)], data.look.range)
+    scale, ramp = Normalize(colours.low, colours.high), matplotlib.colormaps[colours.map]
     figure, panels = _canvas(shots, points)
-    paint = Paint(values=values, colours=lambda shades: colours(scale(shades))[:, :3], mesh=_MESH_COLOUR)
+    paint = Paint(values=values, colours=lambda shades: ramp(scale(shades))[:, :3], mesh=_MESH_COLOUR)
     for axes, shot in zip(panels, shots, strict=True):
         paint_skin(axes, shot.skin, points, shot.camera, paint)
-    beyond = largest > top * (1.0 + 1e-6)
-    more = f" (elsewhere up to {largest:.4g})" if beyond else ""
-    words = scalar.words.format(" on the skin") + more
-    colour_bar(figure, ScalarMappable(scale, colours), panels, words, shrink=0.7, extend="max" if beyond else "neither")
-    entitle(figure, data.model.title, f"deformed, {factor_words(factor)}; end of step '{data.last.name}'")
+    words, extend = beyond(scalar, scalar.words.format(" on the skin"), colours)
+    colour_bar(figure, ScalarMappable(scale, ramp), panels, words, shrink=0.7, extend=extend)
+    entitle(figure, data.model.title, f"{factor_words(factor)}; {data.when}")
     return figure
 
 
 def draw_solid_mesh(data: PictureData) -> Figure:
-    """The undeformed mesh, a colour a body, and the contact nodes with their status after the last step."""
+    """The undeformed mesh, a colour a body, and the contact nodes with their status."""
     from matplotlib.lines import Line2D
 
     skin, shots = data.skin, make_shots(data)
@@ -76,7 +64,7 @@ def draw_solid_mesh(data: PictureData) -> Figure:
             panels[-1].plot(*shots[-1].camera.across(skin.points[own]).T, "o", ms=3.5, color=colour, zorder=3)
             handles.append(Line2D([], [], marker="o", ls="", ms=4, color=colour, label=f"contact node, {words}"))
     legend_below(figure, handles)
-    entitle(figure, data.model.title, data.size)
+    entitle(figure, data.model.title, f"{data.size}; {data.when}")
     return figure
 
 

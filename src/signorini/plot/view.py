@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.output.atomic_write import atomic_write
+from signorini.plot.components import Scalar
 from signorini.plot.field import factor_words
 from signorini.plot.patch import Patch
-from signorini.plot.picture_data import PictureData, Scalar
+from signorini.plot.picture_data import PictureData
 from signorini.plot.shots import Shot, contact_shot, deformed, whole_shot
 from signorini.plot.style import INK
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rigid obstacles in pictures of plane bodies: what they fill, where they are after the last step."""
+"""Rigid obstacles in pictures of plane bodies: what they fill, where they are at the moment that is shown."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle
+from signorini.output.fields import State
 from signorini.plot.style import INK
 from signorini.solution.results import StepResult
 
@@ -29,7 +30,7 @@ class Wall:
     ----------
     shape : before it moves
     about : (2,) point about which it turns, length
-    displacement : (2,) of that point after the last step, length
+    displacement : (2,) of that point at the moment, length
     rotation : radians, small
     """
 
@@ -39,25 +40,26 @@ class Wall:
     rotation: float
 
     def depth(self, points: Array, *, moved: bool) -> Array:
-        """Depths of points (n, 2) inside, (n,) length; ``moved``: of the obstacle after the last step."""
+        """Depths of points (n, 2) inside, (n,) length; ``moved``: of the obstacle at the moment."""
         if moved:
             arm = points - self.about - self.displacement
             points = points - self.displacement - self.rotation * np.column_stack([-arm[:, 1], arm[:, 0]])
         return -self.shape.nearest(points)[0]
 
 
-def walls_of(model: Model, step: StepResult) -> list[Wall]:
-    """Obstacles of a plane model at the end of a step; none in space."""
+def walls_of(model: Model, state: State) -> list[Wall]:
+    """Obstacles of a plane model in a state; none in space. On the way only those at rest are known."""
     if model.dimension == 3:
         return []
-    moving = [(rigid.shape, rigid.about, step.obstacles[rigid.name]) for rigid in model.obstacles]
+    known = state.obstacles if isinstance(state, StepResult) else {}
+    moving = [(rigid.shape, rigid.about, known[rigid.name]) for rigid in model.obstacles if rigid.name in known]
     walls = [Wall(shape, np.array(about), found.displacement, float(found.rotation)) for shape, about, found in moving]
     resting = [contact.mortar for contact in model.contacts if isinstance(contact.mortar, Obstacle)]
     return walls + [Wall(shape, np.zeros(2), np.zeros(2), 0.0) for shape in resting]
 
 
 def draw_walls(axes: Axes, walls: list[Wall], *, moved: bool) -> None:
-    """Fill what walls fill of axes, behind everything else; ``moved``: where they are after the last step."""
+    """Fill what walls fill of axes, behind everything else; ``moved``: where they are at the moment."""
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
     x, y = np.meshgrid(np.linspace(left, right, _POINTS_ACROSS), np.linspace(low, high, _POINTS_ACROSS))
     points = np.column_stack([x.ravel(), y.ravel()])

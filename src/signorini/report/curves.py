@@ -38,7 +38,7 @@ def profiles(data: PictureData) -> Iterator[ChartData]:
                 lines += (
                     [Line(name=name, x=curve.s, y=-bound, colour=1, dashed=True)] if (curve.traction < 0).any() else []
                 )
-            groups[f"end of step {number}, {curve.step}"] = lines
+            groups[f"end of step {number}, {data.history.steps[number - 1].name}"] = lines
         shown = f"{contact.label}: pressure and friction along the surface"
         yield ChartData(
             title=shown,

@@ -19,9 +19,9 @@ from signorini.output.table import accuracy_lines, history_table, spell_vector
 from signorini.plot.accuracy import draw_accuracy
 from signorini.plot.contact import draw_contacts
 from signorini.plot.escape import plot_escape
-from signorini.plot.field import draw_stress
+from signorini.plot.field import draw_field
 from signorini.plot.picture_data import PictureData
-from signorini.plot.solid import draw_solid_stress
+from signorini.plot.solid import draw_solid_field
 from signorini.plot.style import literal
 from signorini.plot.units import Units
 from signorini.report.charts import chart
@@ -127,7 +127,7 @@ def _sections(history: History, fields: Fields | None) -> Iterator[tuple[str, st
         yield "Contacts", _picture(draw_contacts(data), "pressure, status and friction of the contacts", data.units)
     if over := [*forces(data), *hysteresis(data), *reactions(data)]:
         yield "History", "".join(map(chart, over))
-    drawn = draw_solid_stress(data) if data.solid else draw_stress(data)
+    drawn = draw_solid_field(data, data.stress) if data.solid else draw_field(data, data.stress)
     yield (
         "Bodies",
         (scene(data) if data.solid else "") + _picture(drawn, "von Mises stress after the last step", data.units),
