@@ -181,7 +181,7 @@ def _refuse_large(steps: Sequence[DeckStep], contacts: Sequence[Pair], small_str
     moving = bool(contacts) and all(pair.contact.slides or pair.contact.tied for pair in contacts)
     for step in steps:
         if step.nlgeom and not small_strain and not (moving and any(pair.contact.slides for pair in contacts)):
-            why = "here there is no contact" if not contacts else "here pairs stay (SMALL SLIDING, bonds)"
+            why = "here there is no contact" if not contacts else "here pairs stay (SMALL SLIDING, bonds, gaskets)"
             raise step.card.error(
                 "NLGEOM asks for large displacements, which bodies have whose contact pairs follow them, not by large "
                 f"strains; {why}; --small-strain solves with small ones"
@@ -283,6 +283,10 @@ def _notes(
         notes.append(_FOLLOWING_PAIRS)
     if any(pair.contact.tied and pair.card.keyword == "CONTACT PAIR" for pair in contacts):
         notes.append("surfaces of a TIED contact pair are tied exactly: a stiffness given with it is not used")
+    if grid.gaskets:
+        from signorini.deck.inp.gaskets import GASKET_NOTE
+
+        notes.append(GASKET_NOTE)
     general = [pair.contact for pair in contacts if pair.card.keyword == "CONTACT"]
     if general:
         pairs = ", ".join(f"{contact.nonmortar} on {contact.mortar}" for contact in general)

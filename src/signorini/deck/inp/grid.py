@@ -27,6 +27,13 @@ _SHAPES = {  # of trusses, beams, membranes and shells, which meshers write for 
     **dict.fromkeys(("T2D3", "T3D3", "B22", "B32"), "line3"),
     **{f"{word}{nodes}": family for word in ("S", "M3D") for nodes, family in _PLANE.items()},
 }
+_GASKETS: dict[str, tuple[str, Kind | None]] = {  # between the faces of two bodies, bottom first, by family and kind
+    "GK3D6": ("wedge", "3d"),
+    "GK3D8": ("hexahedron", "3d"),
+    "GKPS4": ("quad", "plane stress"),
+    "GKPE4": ("quad", "plane strain"),
+    "GKAX4": ("quad", "axisymmetric"),
+}
 _FULLY = "reduced integration is not used: all elements are integrated fully"
 _VARIANTS = {
     "": "",
@@ -69,6 +76,7 @@ class ElementType:
     kind : of the model, as "plane strain"; None of lines and shells, of which there is no model
     incompatible : with incompatible modes
     note : how it differs from what the deck asks for, empty if it does not
+    gasket : between two bodies, in whose faces the halves of its nodes lie
     """
 
     name: str
@@ -76,6 +84,7 @@ class ElementType:
     kind: Kind | None
     incompatible: bool = False
     note: str = ""
+    gasket: bool = False
 
     @property
     def nodes(self) -> int:
@@ -106,6 +115,8 @@ def element_type(card: Card) -> ElementType:
     name = card.value("TYPE", "an element type").upper()
     if name.rstrip("R") in _SHAPES:
         return ElementType(name=name, family=_SHAPES[name.rstrip("R")], kind=None)
+    if name.startswith("GK"):
+        return _gasket_type(card, name)
     solid = name.startswith("C3D")
     word = next((word for word in _PLANES if name.startswith(word)), name[:3])
     size = name[len(word) :].rstrip("RIHMT")
@@ -120,6 +131,18 @@ def element_type(card: Card) -> ElementType:
         kind = cast(Kind, "3d" if solid else _PLANES[word])
         return ElementType(name=name, family=family, kind=kind, incompatible=variant.startswith("I"), note=note)
     raise unknown_type(card)
+
+
+def _gasket_type(card: Card, name: str) -> ElementType:
+    """Gasket elements; those that have a behaviour across them alone (N) are the same here."""
+    family, kind = _GASKETS.get(name.removesuffix("N"), ("", None))
+    if not family:
+        raise card.error(
+            f"TYPE={name} is not supported; expected {', '.join(_GASKETS)}, each with or without N behind it"
+        )
+    if name == "GKPS4N":
+        kind = None  # of plane strain and of plane stress
+    return ElementType(name=name, family=family, kind=kind, gasket=True)
 
 
 def unknown_type(card: Card) -> DeckError:
@@ -143,6 +166,7 @@ class DeckGrid:
     nodes, elements : numberings
     groups : one for every ``*ELEMENT`` keyword: its type, its elements' indices and their nodes
     skins : faces and lines that meshers write beside the cells, of lower dimension, for sets and surfaces
+    gaskets : elements between two bodies, which are contacts here
     """
 
     points: Array
@@ -150,11 +174,12 @@ class DeckGrid:
     elements: Numbering
     groups: tuple[ElementGroup, ...]
     skins: tuple[ElementGroup, ...] = ()
+    gaskets: tuple[ElementGroup, ...] = ()
 
     @property
     def all_groups(self) -> tuple[ElementGroup, ...]:
-        """Groups of cells and of skins."""
-        return self.groups + self.skins
+        """Groups of cells, of skins and of gaskets."""
+        return self.groups + self.skins + self.gaskets
 
     @property
     def kind(self) -> Kind:
@@ -217,16 +242,18 @@ def make_grid(cards: Sequence[Card]) -> DeckGrid:
                     nodes=_members(card, kind, table, nodes),
                 )
             )
+    gaskets = tuple(group for group in groups if group.type.gasket)
+    groups = [group for group in groups if not group.type.gasket]
     top = max((group.type.dimension for group in groups), default=0)
     cells = tuple(group for group in groups if group.type.dimension == top)
     for group in cells:
         if group.type.kind is None:
             raise unknown_type(group.card)
     _refuse_space(points, cells, nodes, elements)
-    for group in cells:
+    for group in (*cells, *(group for group in gaskets if group.type.kind is not None)):
         _refuse_other_kind(group, cells[0])
     skins = tuple(group for group in groups if group.type.dimension < top)
-    return DeckGrid(points=points, nodes=nodes, elements=elements, groups=cells, skins=skins)
+    return DeckGrid(points=points, nodes=nodes, elements=elements, groups=cells, skins=skins, gaskets=gaskets)
 
 
 def _refuse_other_kind(group: ElementGroup, first: ElementGroup) -> None:

@@ -50,7 +50,7 @@ def make_contacts(cards: Sequence[Card], known: Known, *, large: bool) -> list[P
     large : whether a step has large displacements: pairs follow the bodies then, unless they say otherwise
     """
     clearances = _clearances(cards, known)
-    found: list[Pair] = []
+    found = list(_gaskets(cards, known))
     for card in of_keyword(cards, "CONTACT PAIR"):
         with known.refusals.gather():
             found += _pairs_of(card, found, known, clearances, large)
@@ -62,6 +62,15 @@ def make_contacts(cards: Sequence[Card], known: Known, *, large: bool) -> list[P
     for card, slave, master, reach in _ties(cards, known):
         found.append(_pair(card, slave, master, found, None, **reach))
     return [*found, *_general(cards, known, found, large=large)]
+
+
+def _gaskets(cards: Sequence[Card], known: Known) -> Iterator[Pair]:
+    """Contacts for the gasket elements between two bodies."""
+    if known.grid.gaskets or any(of_keyword(cards, "GASKET SECTION")):
+        from signorini.deck.inp.gaskets import make_gaskets
+
+        for contact, card in make_gaskets(cards, known):
+            yield Pair(contact=contact, card=card)
 
 
 def _general(cards: Sequence[Card], known: Known, others: Sequence[Pair], *, large: bool) -> Iterator[Pair]:

@@ -25,10 +25,6 @@ ADVICE = {
     **dict.fromkeys(("DAMAGE INITIATION", "DAMAGE EVOLUTION"), "leave it out, and see where its criterion is exceeded"),
     **dict.fromkeys(("SPRING", "SPRINGA", "JOINTC"), "write *EQUATION, or a part of solid elements as stiff as it is"),
     **dict.fromkeys(("GAP", "GAPUNI"), "write a *CONTACT PAIR of the surfaces that it stands between"),
-    **dict.fromkeys(
-        ("GASKET SECTION", "GASKET BEHAVIOR", "GASKET THICKNESS BEHAVIOR", "GASKET ELASTICITY"),
-        "write a *CONTACT PAIR of the faces on both sides, and its pressures as PRESSURE-OVERCLOSURE=TABULAR",
-    ),
     "DASHPOT": "leave it out: nothing moves fast enough for it here",
     "MPC": "write *EQUATION, *RIGID BODY or *COUPLING",
     "DISTRIBUTING COUPLING": "write *COUPLING with *KINEMATIC, or the force as *DSLOAD on the surface",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import IntArray, distinct
+from signorini.arrays import BoolArray, IntArray, distinct
 from signorini.deck.inp.card import Card, Row
 from signorini.deck.inp.grid import DeckGrid
 from signorini.deck.inp.keywords import of_keyword
@@ -85,9 +85,13 @@ class ElementFaces:
 
     def under(self, elements: IntArray) -> IntArray:
         """Keys of the faces of cells that have the nodes of faces or lines among the elements."""
-        wanted = _padded([group.nodes[np.isin(group.index, elements)] for group in self.grid.skins])
+        return self.with_nodes([group.nodes[np.isin(group.index, elements)] for group in self.grid.skins])[0]
+
+    def with_nodes(self, tables: list[IntArray]) -> tuple[IntArray, BoolArray]:
+        """Keys of the outer faces that have the nodes of a row of the tables, and which rows are no such face."""
+        wanted = _padded(tables)
         if not len(wanted):
-            return np.empty(0, np.int64)
+            return np.empty(0, np.int64), np.empty(0, np.bool_)
         known = np.zeros(int(max(self.ends.max(), wanted.max())) + 2, bool)
         known[self.ends] = True
         known[-1] = False
@@ -95,7 +99,8 @@ class ElementFaces:
         near = self.between(distinct(wanted[wanted >= 0]))
         both = np.sort(_padded([wanted, self.ends[near]]), axis=1)
         which = np.unique(both, axis=0, return_inverse=True)[1].ravel()
-        return near[np.isin(which[len(wanted) :], which[: len(wanted)])]
+        rows, faces = which[: len(wanted)], which[len(wanted) :]
+        return near[np.isin(faces, rows)], ~np.isin(rows, faces)
 
     def between(self, nodes: IntArray) -> IntArray:
         """Keys of outer faces whose nodes are all among ``nodes``."""
