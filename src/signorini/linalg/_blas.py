@@ -8,19 +8,15 @@ of its own. Matrices are stored by columns.
 
 from __future__ import annotations
 
-import ctypes
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import llvmlite.binding  # type: ignore[import-untyped]
 import numpy as np
-from numba import cfunc, njit, types
+from numba import njit, types
 from numba.extending import get_cython_function_address
 from numpy.typing import NDArray
-from scipy.linalg import cython_blas
 
 from signorini.arrays import Array, Int32Array
-from signorini.linalg.threads import thread_functions
 
 
 def _external(module: str, name: str, arguments: int) -> Any:
@@ -33,31 +29,6 @@ _dpotrf = _external("cython_lapack", "dpotrf", 5)
 _dtrsm = _external("cython_blas", "dtrsm", 11)
 _dsyrk = _external("cython_blas", "dsyrk", 10)
 _dgemm = _external("cython_blas", "dgemm", 13)
-
-
-def _thread_functions() -> tuple[Any, Callable[[], int]]:
-    """Find how many threads SciPy's OpenBLAS may use, and the address of the function that says so.
-
-    Another BLAS, or a system whose loader does not look into the libraries of a library, keeps its own counsel.
-    """
-    found = thread_functions(str(cython_blas.__file__))
-    if found is not None:
-        return int(ctypes.cast(found[0], ctypes.c_void_p).value or 0), found[1]
-    ignore = cfunc(types.void(types.int32))(lambda _: None)
-    _KEPT_ALIVE.append(ignore)
-    return ignore.address, lambda: 1
-
-
-_KEPT_ALIVE: list[Any] = []
-_address, get_threads = _thread_functions()
-llvmlite.binding.add_symbol("signorini_set_threads", _address)
-_set_threads: Any = types.ExternalFunction("signorini_set_threads", types.void(types.int32))
-
-
-@njit(cache=True)
-def set_threads(threads: int) -> None:
-    """Say how many threads BLAS may use from now on, in the whole process."""
-    _set_threads(threads)
 
 
 class Scratch(NamedTuple):
@@ -132,16 +103,20 @@ def syrk(n: int, k: int, A: StoredMatrix, keep: bool, C: StoredMatrix, s: Scratc
     _dsyrk(c, c + 3, z, z + 4, f + 8, A.begin, z + 8, f + (0 if keep else 16), C.begin, z + 12)
 
 
+AS_STORED, FIRST_TRANSPOSED, SECOND_TRANSPOSED = range(3)
+"""Forms of products: A B, A^T B, A B^T."""
+
+
 @njit(cache=True)
 def gemm(
-    transposed: bool, m: int, n: int, k: int, A: StoredMatrix, B: StoredMatrix, keep: bool, C: StoredMatrix, s: Scratch
+    form: int, m: int, n: int, k: int, A: StoredMatrix, B: StoredMatrix, keep: bool, C: StoredMatrix, s: Scratch
 ) -> None:
-    """Overwrite C, (m, n), by ``[C] - op(A) B``.
+    """Overwrite C, (m, n), by ``[C] - A B``, one of both transposed.
 
     Parameters
     ----------
-    transposed : whether op transposes
-    m, n, k, A, B, C : sizes and matrices, op(A) (m, k)
+    form : which one: `AS_STORED`, `FIRST_TRANSPOSED`, `SECOND_TRANSPOSED`
+    m, n, k, A, B, C : sizes and matrices, A (m, k), B (k, n) once transposed
     keep : whether C counts
     s : of the caller
     """
@@ -149,6 +124,7 @@ def gemm(
     s.size[3], s.size[4], s.size[5] = A.stride, B.stride, C.stride
     z, c, f = s.size.ctypes.data, s.letter.ctypes.data, s.factor.ctypes.data
     _dgemm(
-        c + (2 if transposed else 3), c + 3, z, z + 4, z + 8, f + 8, A.begin, z + 12, B.begin, z + 16,
+        c + (2 if form == FIRST_TRANSPOSED else 3), c + (2 if form == SECOND_TRANSPOSED else 3), z, z + 4, z + 8,
+        f + 8, A.begin, z + 12, B.begin, z + 16,
         f + (0 if keep else 16), C.begin, z + 20,
     )  # fmt: skip

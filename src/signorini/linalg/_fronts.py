@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compiled numeric phase: the whole multifrontal factorisation, and the solves, as one loop over the fronts each.
+"""Compiled numeric phase of a multifrontal factorisation: loops over fronts, and over tiles of large ones.
 
 A front holds k unknowns that it eliminates and r below them. Its k columns live in the factor, (k + r, k) by columns;
 its lower right block, (r, r) by columns, is made where it waits for the parent: on one of two stacks, taken in turns
@@ -14,12 +14,20 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from signorini.arrays import Array, Int32Array
-from signorini.linalg._blas import Scratch, StoredMatrix, gemm, potrf, set_threads, syrk, trsm
+from signorini.arrays import Array, Int32Array, IntArray
+from signorini.linalg._blas import (
+    SECOND_TRANSPOSED,
+    Scratch,
+    StoredMatrix,
+    gemm,
+    potrf,
+    scratch,
+    syrk,
+    trsm,
+)
 from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.plan import Fronts
 
-SHARED_WORK = 1e9  # operations from which threads share what a front leaves: tens of milliseconds of one thread
 TILE = 64  # rows and columns that are mirrored at a time, so that they stay in the cache
 
 
@@ -38,95 +46,215 @@ class Factors(NamedTuple):
     diagonal: Array
 
 
-@njit(cache=True)
-def factorise_fronts(
-    fronts: Fronts,
-    K: Rows,
-    elimination: Elimination,
-    slot: Int32Array,
-    made: Factors,
-    stacks: tuple[Array, Array],
-    threads: int,
-    s: Scratch,
-) -> int:
-    """Factorise; give -1, or the place in the order of elimination where a pivot is not positive.
+class Tree(NamedTuple):
+    """A matrix, the tree of fronts by which it is eliminated, and what that makes.
 
-    Parameters
+    Attributes
     ----------
     fronts : in postorder
     K : in its own numbering
     elimination : order of the unknowns, the interface last
     slot : for every unknown of the interface, in order of elimination, its row in the condensed matrix
     made : overwritten
-    stacks : what waits for parents
-    threads : of BLAS where much is left of a front; in small ones they cost more than they give, and what eliminates
-        its own unknowns has other last digits with every number of threads
+    """
+
+    fronts: Fronts
+    K: Rows
+    elimination: Elimination
+    slot: Int32Array
+    made: Factors
+
+
+class Stacks(NamedTuple):
+    """What is left of fronts and waits for their parents, on two stacks, with room to work.
+
+    Attributes
+    ----------
+    left : the two stacks
+    top : (2,) where each ends
+    waiting : (2, fronts) the fronts on each
+    number : (2,) how many
+    local : (n,) where an unknown stands in the front at hand
+    target, runs : rows of a child in its parent, and where they begin to follow each other
     s : of BLAS
     """
-    (order, _), (factor, condensed, diagonal) = elimination, made
-    inside = len(order) - len(slot)
-    widest = fronts.below.max() if len(fronts.below) else 0
-    local = np.empty(len(order), np.int32)
-    target, runs = np.empty(widest, np.int32), np.empty(widest + 1, np.int32)
+
+    left: tuple[Array, Array]
+    top: IntArray
+    waiting: Int32Array
+    number: IntArray
+    local: Int32Array
+    target: Int32Array
+    runs: Int32Array
+    s: Scratch
+
+
+def stacks(fronts: Fronts, n: int, size: tuple[int, int]) -> Stacks:
+    """Give empty stacks of a size for fronts of n unknowns."""
+    widest = int(fronts.below.max(initial=0))
+    left = np.empty(size[0]), np.empty(size[1])
     waiting = np.empty((2, len(fronts.parent)), np.int32)
-    count, top = np.zeros(2, np.int64), np.zeros(2, np.int64)
-    for t in range(len(fronts.parent)):
+    room = np.empty(n, np.int32), np.empty(widest, np.int32), np.empty(widest + 1, np.int32)
+    return Stacks(left, np.zeros(2, np.int64), waiting, np.zeros(2, np.int64), *room, scratch())
+
+
+@njit(cache=True, nogil=True)
+def factorise_fronts(tree: Tree, begin: int, end: int, stacks: Stacks, alone: bool) -> int:
+    """Factorise fronts begin to end; give -1, or the place in the order where a pivot is not positive.
+
+    Parameters
+    ----------
+    tree : of which they are fronts
+    begin, end : with nothing between them whose children are elsewhere than on the stacks
+    stacks : what is left waits on
+    alone : whether they are a subtree by itself, of whose root all that is left waits, too
+    """
+    fronts, s = tree.fronts, stacks.s
+    for t in range(begin, end):
+        leaf = gather_front(tree, t, stacks)
         a = fronts.unknown[fronts.first[t]]
         k, r = fronts.unknown[fronts.first[t + 1]] - a, fronts.below[t]
-        ld = k + r
-        panel = factor[fronts.panel[t] : fronts.panel[t + 1]]
-        panel[:] = 0.0
-        own, other = fronts.side[t], 1 - fronts.side[t]
-        left = stacks[own][top[own] : top[own] + r * r]
-        _list_below(fronts, t, target)
-        for j in range(k):
-            local[a + j] = j
-        for i in range(r):
-            local[target[i]] = k + i
-        _add_matrix(K, elimination, a, k, local, panel, ld)
-        for j in range(k):
-            diagonal[a + j] = panel[j * (ld + 1)]
-        leaf = count[other] == 0 or fronts.parent[waiting[other, count[other] - 1]] != t
-        if not leaf:
-            for c in range(r):
-                left[c * r + c : (c + 1) * r] = 0.0
-        while count[other] > 0 and fronts.parent[waiting[other, count[other] - 1]] == t:
-            count[other] -= 1
-            child = waiting[other, count[other]]
-            size = fronts.below[child]
-            top[other] -= size * size
-            _list_rows(fronts, child, local, target)
-            number = _list_runs(target[:size], runs)
-            _extend_add(stacks[other][top[other] :], target[:size], runs[: number + 1], k, panel, ld, left, r)
-        top_block, below = StoredMatrix(panel.ctypes.data, ld), StoredMatrix(panel.ctypes.data + 8 * k, ld)
+        own = fronts.side[t]
+        columns = tree.made.columns.ctypes.data + 8 * fronts.panel[t]
+        top_block, below = StoredMatrix(columns, k + r), StoredMatrix(columns + 8 * k, k + r)
         failed = potrf(k, top_block, s)
         if failed != 0:
             return int(a + failed - 1)
         if r == 0:
             continue
         trsm(True, True, r, k, top_block, below, s)
-        many = threads > 1 and k * float(r) * r > SHARED_WORK
-        if many:
-            set_threads(threads)
-        syrk(r, k, below, not leaf, StoredMatrix(left.ctypes.data, r), s)
-        if many:
-            set_threads(1)
-        if fronts.parent[t] == -1:
-            for u in range(len(slot)):
-                local[inside + u] = slot[u]
-            _list_rows(fronts, t, local, target)
-            _add_condensed(left, target, r, condensed)
-        else:
-            top[own] += r * r
-            waiting[own, count[own]] = t
-            count[own] += 1
-    _add_interface(K, elimination, slot, condensed)
+        left = StoredMatrix(stacks.left[own].ctypes.data + 8 * stacks.top[own], r)
+        syrk(r, k, below, not leaf, left, s)
+        leave_front(tree, t, stacks, alone)
     return -1
 
 
+@njit(cache=True, nogil=True)
+def gather_front(tree: Tree, t: int, stacks: Stacks) -> bool:
+    """Gather front t from K and what its children left; give whether it has no children.
+
+    Parameters
+    ----------
+    tree, t : the front
+    stacks : without what its children left, afterwards; what it leaves, begun, lies on top
+    """
+    fronts, (factor, _, diagonal) = tree.fronts, tree.made
+    local, target, waiting = stacks.local, stacks.target, stacks.waiting
+    a = fronts.unknown[fronts.first[t]]
+    k, r = fronts.unknown[fronts.first[t + 1]] - a, fronts.below[t]
+    ld = k + r
+    panel = factor[fronts.panel[t] : fronts.panel[t + 1]]
+    panel[:] = 0.0
+    own, other = fronts.side[t], 1 - fronts.side[t]
+    left = stacks.left[own][stacks.top[own] : stacks.top[own] + r * r]
+    list_below(fronts, t, target)
+    for j in range(k):
+        local[a + j] = j
+    for i in range(r):
+        local[target[i]] = k + i
+    _add_matrix(tree.K, tree.elimination, a, k, local, panel, ld)
+    for j in range(k):
+        diagonal[a + j] = panel[j * (ld + 1)]
+    leaf = stacks.number[other] == 0 or fronts.parent[waiting[other, stacks.number[other] - 1]] != t
+    if not leaf:
+        for c in range(r):
+            left[c * r + c : (c + 1) * r] = 0.0
+    while stacks.number[other] > 0 and fronts.parent[waiting[other, stacks.number[other] - 1]] == t:
+        stacks.number[other] -= 1
+        child = waiting[other, stacks.number[other]]
+        size = fronts.below[child]
+        stacks.top[other] -= size * size
+        _list_rows(fronts, child, local, target)
+        number = _list_runs(target[:size], stacks.runs)
+        block = stacks.left[other][stacks.top[other] :]
+        _extend_add(block, target[:size], stacks.runs[: number + 1], k, panel, ld, left, r)
+    return leaf
+
+
+@njit(cache=True, nogil=True)
+def leave_front(tree: Tree, t: int, stacks: Stacks, alone: bool) -> None:
+    """Leave what is left of front t on its stack, or add it to the condensed matrix.
+
+    Parameters
+    ----------
+    tree, t : the front
+    stacks : what is left lies on top of
+    alone : whether it waits though it has no parent
+    """
+    fronts = tree.fronts
+    own, r = fronts.side[t], fronts.below[t]
+    if fronts.parent[t] == -1 and not alone:
+        left = stacks.left[own][stacks.top[own] : stacks.top[own] + r * r]
+        inside = len(tree.elimination.order) - len(tree.slot)
+        for u in range(len(tree.slot)):
+            stacks.local[inside + u] = tree.slot[u]
+        _list_rows(fronts, t, stacks.local, stacks.target)
+        _add_condensed(left, stacks.target, r, tree.made.condensed)
+    else:
+        stacks.top[own] += r * r
+        stacks.waiting[own, stacks.number[own]] = t
+        stacks.number[own] += 1
+
+
+@njit(cache=True, nogil=True)
+def eliminate_tile(block: tuple[int, int], rows: tuple[int, int], columns: StoredMatrix, s: Scratch) -> int:
+    """Eliminate columns of a front from a tile of its rows, left to right; give 0, or the 1-based column that failed.
+
+    The tile on the diagonal is factorised; it has to be before the others.
+
+    Parameters
+    ----------
+    block : first column, and how many
+    rows : first row, and how many
+    columns : of the front
+    s : of the thread
+    """
+    (first, width), (begin, height) = block, rows
+    own = StoredMatrix(columns.begin + 8 * (begin + first * columns.stride), columns.stride)
+    pivot = StoredMatrix(columns.begin + 8 * first * (columns.stride + 1), columns.stride)
+    if first > 0:
+        done = StoredMatrix(columns.begin + 8 * begin, columns.stride)
+        beside = StoredMatrix(columns.begin + 8 * first, columns.stride)
+        gemm(SECOND_TRANSPOSED, height, width, first, done, beside, True, own, s)
+    if begin == first:
+        return potrf(width, pivot, s)
+    trsm(True, True, height, width, pivot, own, s)
+    return 0
+
+
+@njit(cache=True, nogil=True)
+def leave_tile(
+    tile: tuple[int, int], k: int, columns: StoredMatrix, keep: bool, left: StoredMatrix, s: Scratch
+) -> None:
+    """Form some columns of what is left of a front, (r, r).
+
+    Parameters
+    ----------
+    tile : first column, and how many
+    k, columns : of the front, eliminated
+    keep : whether `left` counts
+    left : overwritten
+    s : of the thread
+    """
+    first, width = tile
+    r = columns.stride - k
+    own = StoredMatrix(columns.begin + 8 * (k + first), columns.stride)
+    syrk(width, k, own, keep, StoredMatrix(left.begin + 8 * first * (r + 1), r), s)
+    if first + width < r:
+        below = StoredMatrix(own.begin + 8 * width, columns.stride)
+        rest = StoredMatrix(left.begin + 8 * (first * (r + 1) + width), r)
+        gemm(SECOND_TRANSPOSED, r - first - width, width, k, below, own, keep, rest, s)
+
+
 @njit(cache=True)
-def _list_below(fronts: Fronts, t: int, below: Int32Array) -> None:
-    """List the unknowns below front t."""
+def list_below(fronts: Fronts, t: int, below: Int32Array) -> None:
+    """List the unknowns below front t.
+
+    Parameters
+    ----------
+    fronts, t : which one
+    below : overwritten, as far as there are any
+    """
     at = 0
     for p in range(fronts.begin[t], fronts.begin[t + 1]):
         for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
@@ -137,7 +265,7 @@ def _list_below(fronts: Fronts, t: int, below: Int32Array) -> None:
 @njit(cache=True)
 def _list_rows(fronts: Fronts, t: int, local: Int32Array, target: Int32Array) -> None:
     """List where the unknowns below front t stand in its parent."""
-    _list_below(fronts, t, target)
+    list_below(fronts, t, target)
     for i in range(fronts.below[t]):
         target[i] = local[target[i]]
 
@@ -199,9 +327,15 @@ def _add_condensed(work: Array, target: Int32Array, r: int, condensed: Array) ->
                 condensed[u, v] += work[c * r + i]
 
 
-@njit(cache=True)
-def _add_interface(K: Rows, elimination: Elimination, slot: Int32Array, condensed: Array) -> None:
-    """Add K_cc to the condensed matrix and mirror its upper triangle."""
+@njit(cache=True, nogil=True)
+def add_interface(K: Rows, elimination: Elimination, slot: Int32Array, condensed: Array) -> None:
+    """Add K_cc to the condensed matrix and mirror its upper triangle.
+
+    Parameters
+    ----------
+    K, elimination, slot : see `Tree`
+    condensed : (m, m), its upper triangle without K_cc
+    """
     (indptr, indices, data), (order, place) = K, elimination
     inside = len(order) - len(slot)
     for u in range(len(slot)):
@@ -216,85 +350,3 @@ def _add_interface(K: Rows, elimination: Elimination, slot: Int32Array, condense
             for u in range(first, min(first + TILE, m)):
                 for v in range(begin, min(begin + TILE, u)):
                     condensed[u, v] = condensed[v, u]
-
-
-@njit(cache=True)
-def _any(y: Array, start: int, end: int) -> bool:
-    """Whether any row of y has an entry other than zero there."""
-    for c in range(len(y)):
-        for u in range(start, end):
-            if y[c, u] != 0.0:
-                return True
-    return False
-
-
-@njit(cache=True)
-def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -> None:
-    """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-1 y``; the interface gathers what is left.
-
-    Fronts that neither a load nor anything eliminated before reaches are passed over: most loads act on a surface.
-
-    Parameters
-    ----------
-    fronts, factor : as factorised
-    y : overwritten
-    work : k numbers for every unknown below the largest front
-    s : of BLAS
-    """
-    columns, n = y.shape
-    rows = np.empty(fronts.below.max() if len(fronts.below) else 0, np.int32)
-    for t in range(len(fronts.parent)):
-        a = fronts.unknown[fronts.first[t]]
-        k = fronts.unknown[fronts.first[t + 1]] - a
-        r = fronts.below[t]
-        if not _any(y, a, a + k):
-            continue
-        top = factor.ctypes.data + 8 * fronts.panel[t]
-        own, below = StoredMatrix(top, k + r), StoredMatrix(top + 8 * k, k + r)
-        x, gathered = StoredMatrix(y.ctypes.data + 8 * a, n), StoredMatrix(work.ctypes.data, r)
-        trsm(False, False, k, columns, own, x, s)
-        if r == 0:
-            continue
-        gemm(False, r, columns, k, below, x, False, gathered, s)
-        _list_below(fronts, t, rows)
-        for c in range(columns):
-            for i in range(r):
-                y[c, rows[i]] += work[c * r + i]
-
-
-@njit(cache=True)
-def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -> None:
-    """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-T (y_i - L_ci^T y_c)``.
-
-    Parameters
-    ----------
-    fronts, factor, y, work, s : see `forward`
-    """
-    columns, n = y.shape
-    rows = np.empty(fronts.below.max() if len(fronts.below) else 0, np.int32)
-    for t in range(len(fronts.parent) - 1, -1, -1):
-        a = fronts.unknown[fronts.first[t]]
-        k = fronts.unknown[fronts.first[t + 1]] - a
-        r = fronts.below[t]
-        top = factor.ctypes.data + 8 * fronts.panel[t]
-        own, below = StoredMatrix(top, k + r), StoredMatrix(top + 8 * k, k + r)
-        x, gathered = StoredMatrix(y.ctypes.data + 8 * a, n), StoredMatrix(work.ctypes.data, r)
-        if r > 0:
-            _list_below(fronts, t, rows)
-            for c in range(columns):
-                for i in range(r):
-                    work[c * r + i] = y[c, rows[i]]
-            gemm(True, k, columns, r, below, gathered, True, x, s)
-        trsm(False, True, k, columns, own, x, s)
-
-
-@njit(cache=True)
-def pivots(fronts: Fronts, factor: Array) -> Array:
-    """Give the squared diagonal of the factor: the pivots in their order of elimination."""
-    pivot = np.empty(fronts.unknown[fronts.first[-1]])
-    for t in range(len(fronts.parent)):
-        a = fronts.unknown[fronts.first[t]]
-        k = fronts.unknown[fronts.first[t + 1]] - a
-        for j in range(k):
-            pivot[a + j] = factor[fronts.panel[t] + j * (k + fronts.below[t] + 1)] ** 2
-    return pivot

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from signorini.arrays import Int32Array, IntArray
+from signorini.arrays import Array, Int32Array, IntArray
 from signorini.linalg._graph import Elimination, Graph, sort_lists
 
 
@@ -234,3 +234,21 @@ def stack_peaks(parent: Int32Array, side: Int32Array, size: IntArray) -> tuple[i
         else:
             now[own] -= size[s]
     return int(peak[0]), int(peak[1])
+
+
+@njit(cache=True)
+def subtrees(parent: Int32Array, work: Array) -> tuple[Int32Array, Array]:
+    """Give the first front and the work of the subtree below every front, its own included.
+
+    Parameters
+    ----------
+    parent : of a postordered forest
+    work : (s,) of every front
+    """
+    first, total = np.arange(len(parent)).astype(np.int32), work.copy()
+    for t in range(len(parent)):
+        up = parent[t]
+        if up != -1:
+            first[up] = min(first[up], first[t])
+            total[up] += total[t]
+    return first, total

@@ -19,14 +19,16 @@ from pathlib import Path
 import numpy as np
 
 from signorini.arrays import Array, Int32Array
-from signorini.linalg import _fronts
+from signorini.linalg import _front_solves, _fronts
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination
+from signorini.linalg.crew import Crew
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.plan import Plan, Plans, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
+from signorini.linalg.shared_fronts import factorise_parts
 from signorini.linalg.system import System, as_columns, like
-from signorini.linalg.threads import one_thread
+from signorini.linalg.threads import number_of_threads, one_thread
 
 
 def compiled() -> bool:
@@ -63,7 +65,7 @@ class MultifrontalFactorisation:
         columns = as_columns(f, self.n)
         if columns.any():
             y = np.ascontiguousarray(columns.T[:, self.plan.order])
-            self._solve(_fronts.forward, y)
+            self._solve(_front_solves.forward, y)
         else:
             y = np.zeros(columns.T.shape)
         g = np.empty((self.m, len(y)))
@@ -72,7 +74,7 @@ class MultifrontalFactorisation:
 
     def _expand(self, f: Array, y: Array, u_c: Array) -> Array:
         y[:, self.n - self.m :] = as_columns(u_c, self.m)[self.slots].T
-        self._solve(_fronts.backward, y)
+        self._solve(_front_solves.backward, y)
         u = np.empty((self.n, len(y)))
         u[self.plan.order] = y.T
         return like(f, u)
@@ -97,17 +99,15 @@ def factorise(system: System, plans: Plans | None = None) -> MultifrontalFactori
     slots = np.empty(system.m, dtype=np.int32)
     slots[place[system.interface] - inside] = np.arange(system.m, dtype=np.int32)
     made = _fronts.Factors(np.empty(plan.fronts.panel[-1]), np.zeros((system.m, system.m)), np.empty(inside))
-    stacks = np.empty(plan.stacks[0]), np.empty(plan.stacks[1])
-    with one_thread() as threads:
-        failed = _fronts.factorise_fronts(
-            plan.fronts, system.rows, Elimination(plan.order, place), slots, made, stacks, threads, scratch()
-        )
+    tree = _fronts.Tree(plan.fronts, system.rows, Elimination(plan.order, place), slots, made)
+    with one_thread(), Crew(number_of_threads() if len(plan.parts) > 1 else 1) as crew:
+        failed = factorise_parts(tree, plan, crew)
     if failed >= 0:
         raise NotPositiveDefinite(int(plan.order[failed]))
     made.condensed.flags.writeable = False
     result = MultifrontalFactorisation(
         n=system.n, m=system.m, plan=plan, factor=made.columns, condensed=made.condensed, slots=slots
     )
-    if np.any(_fronts.pivots(plan.fronts, made.columns) < SUSPICIOUS_PIVOT * made.diagonal):
+    if np.any(_front_solves.pivots(plan.fronts, made.columns) < SUSPICIOUS_PIVOT * made.diagonal):
         check_energy(system, result)
     return result

@@ -6,16 +6,28 @@ Unknowns of a node stay together, so that trees and fronts are those of the node
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from signorini.arrays import Int32Array, IntArray
+from signorini.arrays import Array, Int32Array, IntArray
 from signorini.linalg import _symbolic
 from signorini.linalg._graph import Elimination
 from signorini.linalg.ordering import nested_dissection, unknowns
 from signorini.linalg.system import NodeGraph, System, node_graph
+
+SHARED_WORK = 1e9
+"""Multiplications and additions from which threads share a factorisation, and then a front: tens of milliseconds of one
+thread."""
+
+BRANCHES = 32
+"""Threads take subtrees of at most this part of all work: enough for some sixteen threads."""
+
+SMALLEST_BRANCH = 1e-3
+"""Part of all work of a subtree below which handing it to a thread is not worth it."""
 
 RELAX = (8, 0.8, 24, 0.3, 0.05)
 """When supernodes are joined though zeros are stored for it; see `_symbolic.supernodes`. Found by measurement."""
@@ -46,6 +58,25 @@ class Fronts(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Part:
+    """Fronts that follow each other, which one thread eliminates, or all share: of a large front by itself.
+
+    Attributes
+    ----------
+    begin, end : the fronts
+    branch : whether they are a subtree, which needs nothing of what is before it
+    large : whether it is a single front that is worth sharing
+    stacks : entries that wait in it, on each of two stacks, at the worst time
+    """
+
+    begin: int
+    end: int
+    branch: bool
+    large: bool
+    stacks: tuple[int, int]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Plan:
     """Everything that depends on the pattern alone.
 
@@ -53,6 +84,7 @@ class Plan:
     ----------
     order : (n,) unknowns in their order of elimination, the interface last
     fronts : see `Fronts`
+    parts : the fronts by parts, the same for any number of threads
     stacks : entries that wait for their parents, and those made, at the worst time on each of two stacks
     widest : unknowns below the largest front
     nnz_factor : entries of the factor
@@ -62,6 +94,7 @@ class Plan:
 
     order: Int32Array
     fronts: Fronts
+    parts: tuple[Part, ...]
     stacks: tuple[int, int]
     widest: int
     nnz_factor: int
@@ -86,15 +119,45 @@ def analyse(system: System) -> Plan:
     panel = _offsets(width * (width + below))
     side = _symbolic.sides(parent)
     stacks = _symbolic.stack_peaks(parent, side, below**2)
+    work = width**3 / 3 + width**2 * below + width * below.astype(np.float64) ** 2
     return Plan(
         order=unknowns(graph, order),
         fronts=Fronts(first, unknown, begin, row, below.astype(np.int32), parent, panel, side),
+        parts=tuple(_parts(parent, work, side, below)),
         stacks=stacks,
         widest=int(below.max(initial=0)),
         nnz_factor=int((width * (width + 1) // 2 + width * below).sum()),
-        flops=float((width**3 / 3 + width**2 * below + width * below.astype(np.float64) ** 2).sum()),
+        flops=float(work.sum()),
         peak_bytes=8 * (int(panel[-1]) + sum(stacks) + system.m**2),
     )
+
+
+def _parts(parent: Int32Array, work: Array, side: Int32Array, below: IntArray) -> Iterator[Part]:
+    """Part the fronts into branches, large fronts, and what lies between them.
+
+    Parameters
+    ----------
+    parent, work, side, below : of every front
+    """
+    number, shared = len(parent), float(work.sum())
+    ends, large, ahead = np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0, np.int64)
+    if shared > SHARED_WORK:
+        first, total = _symbolic.subtrees(parent, work)
+        light = total <= shared / BRANCHES
+        ends = np.flatnonzero(light & ((parent == -1) | ~light[parent]) & (total > SMALLEST_BRANCH * shared))
+        ahead, large = first[ends].astype(np.int64), np.flatnonzero(~light & (work > SHARED_WORK))
+    marks = np.unique(np.concatenate([[0], ahead, ends + 1, large, large + 1, [number]]))
+    branches, alone = set(ahead.tolist()), set(large.tolist())
+    for begin, end in itertools.pairwise(marks.tolist()):
+        inner = np.maximum(parent[begin:end] - begin, -1).astype(np.int32)
+        inner[inner >= end - begin] = -1
+        yield Part(
+            begin=begin,
+            end=end,
+            branch=begin in branches,
+            large=begin in alone,
+            stacks=_symbolic.stack_peaks(inner, side[begin:end], below[begin:end] ** 2),
+        )
 
 
 class Plans:

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What threads share of a factorisation: the same to the last bit for any number of them, and right."""
+
+import threading
+
+import numpy as np
+import pytest
+
+from signorini.errors import InputError
+from signorini.linalg import NotPositiveDefinite, factorise, plan, shared_fronts, threads
+from signorini.linalg.crew import Crew
+from tests.helpers.lattices import dense_schur, lattice, together
+
+PROBLEMS = {
+    "plane": lattice((31, 24)),
+    "space": lattice((9, 8, 10)),
+    "bodies": together(
+        lattice((19, 17)), lattice((8, 9), held="none"), lattice((7, 6, 8)), lattice((6, 6), held="roller")
+    ),
+}
+
+
+@pytest.fixture
+def shared(monkeypatch):
+    """Small models are shared as large ones are, in tiles as small as they are."""
+    monkeypatch.setattr(plan, "SHARED_WORK", 3e3)
+    monkeypatch.setattr(shared_fronts, "TILE", 7)
+
+
+@pytest.mark.usefixtures("shared")
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_every_number_of_threads_gives_the_same_bits(name):
+    p = PROBLEMS[name]
+    load = np.random.default_rng(1).standard_normal(p.K.shape[0])
+    found = []
+    for number in (1, 2, 3, 5, 16):
+        with threads.threads(number):
+            factor = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal")
+        found.append((factor.factor, factor.schur(), factor.reduce(load).load))
+    parts = factor.plan.parts
+    assert sum(part.branch for part in parts) > 4
+    assert sum(part.large for part in parts) > 2
+    for other in found[1:]:
+        assert all(np.array_equal(one, two) for one, two in zip(found[0], other, strict=True))
+    S = dense_schur(p.K, p.interface)
+    assert np.abs(found[0][1] - S).max() <= 1e-12 * np.abs(S).max()
+
+
+@pytest.mark.usefixtures("shared")
+def test_parts_hold_every_front_once():
+    p = PROBLEMS["space"]
+    parts = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal").plan.parts
+    ends = [part.begin for part in parts[1:]] + [parts[-1].end]
+    assert [part.end for part in parts] == ends
+    assert parts[0].begin == 0
+    assert all(part.end - part.begin == 1 for part in parts if part.large)
+
+
+@pytest.mark.usefixtures("shared")
+@pytest.mark.parametrize("number", [1, 3])
+@pytest.mark.parametrize("place", [0.02, 0.6, 0.98])
+def test_an_indefinite_matrix_names_the_same_unknown(number, place):
+    p = PROBLEMS["space"]
+    inside = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal").plan.order[: -len(p.interface)]
+    K = p.K.copy().tolil()
+    wrong = inside[int(place * len(inside))]
+    K[wrong, wrong] = -1.0
+    with threads.threads(number), pytest.raises(NotPositiveDefinite) as error:
+        factorise(K.tocsr(), p.interface, nodes=p.nodes, backend="multifrontal")
+    assert error.value.dof == wrong
+    assert threading.active_count() == 1
+
+
+def test_what_runs_ahead_stays_near():
+    """No more is made ahead than twice the threads, so that what waits does not fill the memory."""
+    begun, most = [], 0
+    with Crew(2) as crew:
+        for i, _ in enumerate(crew.ahead((lambda i=i: begun.append(i)) for i in range(40))):
+            most = max(most, len(begun) - i)
+    assert sorted(begun) == list(range(40))
+    assert most <= 4
+
+
+@pytest.mark.parametrize("number", [0, -1, 1.5, True, "2"])
+def test_wrong_numbers_of_threads_are_named(number):
+    with pytest.raises(InputError, match="expected a whole number, at least 1"), threads.threads(number):
+        pass
+
+
+@pytest.mark.parametrize(
+    ("said", "number"), [("3", 3), ("3,2", 3), (" 4 ", 4), ("many", None), ("0", None), ("", None)]
+)
+def test_the_environment_says_how_many(said, number, monkeypatch):
+    monkeypatch.setenv("OMP_NUM_THREADS", said)
+    assert threads.number_of_threads() == (number or threads.physical_cores())
