@@ -99,8 +99,9 @@ def reduced_stiffness(K: sp.csr_array, T: sp.csr_array) -> sp.csr_array:
     >>> (T.T @ K @ T).toarray().tolist(), reduced_stiffness(K, T).toarray().tolist()
     ([[5.551115123125783e-17]], [[0.0]])
     """
-    if np.array_equal(T.indices, np.arange(T.shape[1])) and np.diff(T.indptr).max(initial=0) < 2 and (T.data == 1).all():
-        return _of_free(K, np.diff(T.indptr) > 0)  # supports hold dofs, and no sums are to be formed
+    number = np.diff(T.indptr)
+    if np.array_equal(T.indices, np.arange(T.shape[1])) and number.max(initial=0) < 2 and (T.data == 1.0).all():
+        return _of_free(K, number > 0)  # supports hold dofs, and no sums are to be formed
     reduced = sp.csr_array(T.T @ K @ T)
     together = np.flatnonzero(np.bincount(T.indices, minlength=T.shape[1]) > 1)
     if not len(together):
