@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,12 +19,17 @@ from signorini.errors import InputError, one_of
 from signorini.fem.path import PathResult, along
 from signorini.fem.stress import BodyStress
 from signorini.model.model import Model
+from signorini.output.contact_table import contact_table
 from signorini.output.fields import Fields, State
+from signorini.output.result_table import ResultTable
 from signorini.output.vtu import write_bodies
 from signorini.plasticity.fields import PlasticFields
 from signorini.short import Short
 from signorini.solution.history import History, find_contact
 from signorini.solution.results import ContactResult, Instant
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -137,8 +143,22 @@ class HistoryMoment(Short):
         given, plastic = np.asarray(points, float), fields.plastic_strains(state)
         return along(*fields.on(state), self.displacement, given, body=body, factors=state.factors, plastic=plastic)
 
+    def contact_table(self) -> ResultTable:
+        """Nonmortar nodes, one row each, as that of a solution."""
+        return contact_table(self.history.model, [(self.number, self.contacts)])
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """`contact_table` as a pandas table.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
+        """
+        return self.contact_table().to_dataframe()
+
     def write(self, path: str | Path) -> None:
-        """Write the bodies as ``*.vtu``, with displacement, stress and von Mises stress.
+        """Write the bodies as ``*.vtu``, or `contact_table` as ``*.csv``.
 
         Raises
         ------
@@ -146,9 +166,12 @@ class HistoryMoment(Short):
             For any other name.
         """
         path = Path(path)
-        if path.suffix.lower() != ".vtu":
-            raise InputError(f"is '{path}'; expected a name that ends in .vtu", where=("path",))
-        write_bodies(self.fields.at(self.state), path)
+        if path.suffix.lower() not in (".vtu", ".csv"):
+            raise InputError(f"is '{path}'; expected a name that ends in .vtu, .csv", where=("path",))
+        if path.suffix.lower() == ".csv":
+            self.contact_table().write(path)
+        else:
+            write_bodies(self.fields.at(self.state), path)
 
 
 def body_number(model: Model, name: str) -> int:

@@ -17,6 +17,7 @@ from signorini.derivative.differentiable import DifferentiableHistory
 from signorini.engine.fatigue import assess_fatigue
 from signorini.engine.fatigue_places import probe_of
 from signorini.engine.moments import at_rest
+from signorini.engine.outside import outside, outside_names
 from signorini.engine.recovery import Recovery
 from signorini.engine.stress_history import stress_history
 from signorini.errors import InputError
@@ -28,9 +29,13 @@ from signorini.model.fatigue import Fatigue
 from signorini.output.archive import write_archive
 from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import write_checkpoint
+from signorini.output.contact_table import contact_table
 from signorini.output.fatigue_csv import fatigue_fields
 from signorini.output.fields import Fields
+from signorini.output.folder import write_folder
 from signorini.output.frd import write_frd
+from signorini.output.history_table import history_columns
+from signorini.output.result_table import ResultTable
 from signorini.output.series import write_pvd
 from signorini.output.table import history_table
 from signorini.output.vtu import write_bodies
@@ -46,6 +51,7 @@ from signorini.solution.moment import at_load, counted, instant_at, step_number
 from signorini.solution.stress_history import StressHistory
 
 if TYPE_CHECKING:
+    import pandas
     from matplotlib.figure import Figure
 
 
@@ -66,7 +72,7 @@ class Solution(DifferentiableHistory):
         ----------
         path : ``.vtu``: the last state with displacement, stress and von Mises stress; ``.pvd``: a series of these for
             ParaView, at the ends of steps and at times asked for; ``.h5``: everything, to be read again with
-            :func:`load`; ``.frd``: all steps, as CalculiX writes them
+            :func:`load`; ``.frd``: all steps, as CalculiX writes them; ``.csv``: `contact_table`
 
         Raises
         ------
@@ -79,10 +85,25 @@ class Solution(DifferentiableHistory):
             ".pvd": lambda: write_pvd(self, self._fields, path),
             ".h5": lambda: write_archive(self, path),
             ".frd": lambda: write_frd(self, self._fields, path),
+            ".csv": lambda: self.contact_table().write(path),
         }
         if path.suffix.lower() not in writers:
-            raise InputError(f"is '{path}'; expected a name that ends in {', '.join(writers)}", where=("path",))
+            words = f"a name that ends in {', '.join(writers)}, or 'save_results' for a folder"
+            raise InputError(f"is '{path}'; expected {words}", where=("path",))
         writers[path.suffix.lower()]()
+
+    def save_results(self, folder: str | Path) -> list[Path]:
+        """Write the files that ``signorini run`` writes into a folder, which is made if need be; they are returned.
+
+        What an earlier call left there is replaced. ``signorini plot`` and ``signorini report`` read the folder, and
+        :func:`load`.
+
+        Raises
+        ------
+        InputError
+            If the folder cannot be written to, or holds the results of a deck.
+        """
+        return write_folder(self, Path(folder))
 
     def save_state(self, path: str | Path) -> None:
         """Write the end of the last finished step, from which :func:`solve` can go on: a NumPy archive, ``*.npz``.
@@ -264,6 +285,44 @@ class Solution(DifferentiableHistory):
         """
         request = Fatigue(criterion, where=where, steps=steps, distance=distance, average=average)
         return assess_fatigue(self, request, self._fields.space)
+
+    @cached_property
+    def history(self) -> ResultTable:
+        """Loads, contacts, energies, reactions and approaches at every instant, as columns.
+
+        One row an event, increment, kink of the loads, time asked for and end of a step. ``SUPPORT.reaction_x``,
+        ``LOAD.approach`` (how far its points move along it), ``OBSTACLE.displacement_x``, ... are found when they are
+        asked for; NaN is what is not known.
+
+        Examples
+        --------
+        >>> import signorini as sg
+        >>> bar = sg.Model(sg.rectangle(width=2.0, nx=2), bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.0))],
+        ...                supports=[sg.Support("left", u=(0, 0))], loads=[sg.Load("right", traction=(5.0, 0))])
+        >>> history = sg.solve(bar).history
+        >>> print(history["left.reaction_x"].round(9), history["right.approach"].round(9))
+        [-5.] [0.1]
+        """
+        return history_columns(self, outside_names(self.model), lambda: outside(self, lambda: self._recovery))
+
+    def contact_table(self) -> ResultTable:
+        """Nonmortar nodes at the ends of all steps, one row each: ``contact.csv``, and normals, forces, slips.
+
+        Behind its columns: ``arc_length`` along the side in the plane, ``normal_x``, ..., ``force_x``, ... (nodal
+        forces on the nonmortar body), ``sliding``, ``slip_range`` and ``slip_amplitude`` of the last cycle,
+        ``dissipation_per_area``.
+        """
+        return contact_table(self.model, [(k, step.contacts) for k, step in enumerate(self.steps, start=1)])
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """`contact_table` as a pandas table.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
+        """
+        return self.contact_table().to_dataframe()
 
     @cached_property
     def _fields(self) -> Fields:

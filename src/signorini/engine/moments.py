@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
 from signorini.arrays import Array, frozen
-from signorini.engine.examine import examine
+from signorini.engine.examine import Examined, examine
+from signorini.engine.reactions import rigid_dofs
 from signorini.engine.recovery import Recovery
 from signorini.errors import InputError
 from signorini.linalg.threads import one_thread
@@ -49,77 +51,142 @@ def at_rest(history: History) -> Instant:
     )
 
 
-@one_thread()
 def displacement_at(recovery: Recovery, history: History, number: int, instant: Instant) -> Array:
-    """Displacements (nodes, d) of the bodies at a moment, from the forces of the contacts.
-
-    Rigid motions that nothing but contact holds are those that gaps and slips say, from a state whose displacements
-    were kept to this one.
+    """Displacements (nodes, d) of the bodies at a moment, as `dofs_on_the_way` finds them.
 
     Parameters
     ----------
     recovery : of the model
     history, number : with the step of the moment, which counts from 1
-    instant : its contacts
+    instant : the contacts at the moment
+    """
+    (found,) = dofs_on_the_way(recovery, history, number, [instant])
+    return frozen(recovery.examined.space.at_nodes(found))
+
+
+@one_thread()
+def dofs_on_the_way(recovery: Recovery, history: History, number: int, instants: Sequence[Instant]) -> list[Array]:
+    """Displacements (dofs,) at moments of a step, from the forces of the contacts.
+
+    Rigid motions that nothing but contact holds are those that gaps and slips say, from a state whose displacements
+    were kept to the moment.
+
+    Parameters
+    ----------
+    recovery : of the model
+    history, number : with the step of the moments, which counts from 1
+    instants : the contacts at the moments
 
     Raises
     ------
     InputError
         If displacements do not follow from what was kept.
     """
-    step = history.steps[number - 1]
-    found = next(iter([*recovery.displacements(step, [instant])]))
+    step, solved = history.steps[number - 1], cache(lambda state: recovery.solved([state])[:, 0])
+    strained = recovery.dofs(step, instants)
     if not recovery.loose.shape[1]:
-        return frozen(found)
-    for state, kept in _references(history, number, instant):
-        rigid = _rigid_motion(recovery, history, step, (state, instant))
+        return [*strained]
+    return [
+        _settled(recovery, history, number, (instant, found), solved)
+        for instant, found in zip(instants, [*strained], strict=True)
+    ]
+
+
+def _settled(
+    recovery: Recovery,
+    history: History,
+    number: int,
+    moment: tuple[Instant, Array],
+    solved: Callable[[Instant], Array],
+) -> Array:
+    """Displacements (dofs,) with the rigid motions of bodies that contact alone holds.
+
+    Parameters
+    ----------
+    recovery, history, number : as of `dofs_on_the_way`
+    moment : its contacts, and displacements (dofs,) but for rigid motions
+    solved : the latter at instants
+    """
+    step, (instant, found) = history.steps[number - 1], moment
+    for state, kept in _references(recovery, history, number, instant):
+        strained = found - solved(state)
+        rigid = _rigid_motion(recovery, history, step, (state, instant), strained)
         if rigid is not None:
-            there = next(iter([*recovery.displacements(step, [state])]))
-            return frozen(kept + found - there + recovery.examined.space.at_nodes(rigid))
+            return np.asarray(kept + strained + rigid)
     words = f"how '{step.name}' moves bodies on the way that contact alone holds does not follow from gaps and slips"
     raise InputError(f'{words}; expected at = "events" in it, which keeps displacements', where=("load",))
 
 
-def _references(history: History, number: int, instant: Instant) -> Iterator[tuple[Instant, Array]]:
-    """Instants whose displacements were kept, those that are next to a moment first."""
+def _references(recovery: Recovery, history: History, number: int, instant: Instant) -> Iterator[tuple[Instant, Array]]:
+    """Instants with displacements (dofs,) that were kept, those that are next to a moment first."""
     step = history.steps[number - 1]
-    known = [shot for shot in step.instants[:-1] if shot.displacement is not None]
-    states = [(shot, shot.displacement) for shot in known] + [(step.instants[-1], step.displacement)]
+    known: list[tuple[Instant, Array | None, StepResult | None]] = [
+        (shot, shot.displacement, None) for shot in step.instants[:-1]
+    ]
+    known.append((step.instants[-1], step.displacement, step))
     if number > 1:
-        states.append((history.steps[number - 2].instants[-1], history.steps[number - 2].displacement))
+        before = history.steps[number - 2]
+        known.append((before.instants[-1], before.displacement, before))
     elif history.begin is not None:
-        states.append((history.begin, history.begin.displacement))
-    for state, kept in sorted(states, key=lambda pair: abs(pair[0].load_factor - instant.load_factor)):
-        if kept is not None:
-            yield state, kept
+        known.append((history.begin, history.begin.displacement, None))
+    rigid = bool(recovery.examined.model.obstacles or recovery.examined.model.rigid_bodies)
+    for state, kept, end in sorted(known, key=lambda each: abs(each[0].load_factor - instant.load_factor)):
+        if kept is not None and (end is not None or not rigid):
+            yield state, whole_dofs(recovery.examined, kept, end)
+
+
+def whole_dofs(examined: Examined, displacement: Array, step: StepResult | None = None) -> Array:
+    """(dofs,) Displacements of the bodies, with those of obstacles and rigid bodies where a step says them.
+
+    Parameters
+    ----------
+    examined : the model
+    displacement : (nodes, d) of the bodies
+    step : at whose end they are; None: obstacles and rigid bodies are NaN
+    """
+    space, model = examined.space, examined.model
+    found = np.full(space.number_of_dofs, np.nan)
+    found[: displacement.size] = displacement.ravel()
+    if step is not None:
+        for j, rigid in enumerate([*step.obstacles.values(), *step.rigid_bodies.values()]):
+            dofs, size = rigid_dofs(model, space, j)
+            found[dofs] = np.concatenate([rigid.displacement, np.atleast_1d(rigid.rotation)]) * size
+    return found
 
 
 def _rigid_motion(
-    recovery: Recovery, history: History, step: StepResult, ends: tuple[Instant, Instant]
+    recovery: Recovery, history: History, step: StepResult, ends: tuple[Instant, Instant], strained: Array
 ) -> Array | None:
-    """(dofs,) Rigid motion from one state to another besides what `Recovery` finds; None where it is not all known."""
+    """(dofs,) Rigid motion from one state to another besides what the bodies strain; None where it is not all known.
+
+    Parameters
+    ----------
+    recovery, history, step : of the states
+    ends : the states
+    strained : (dofs,) by what displacements but for rigid motions differ
+    """
     interface, d = recovery.examined.interface, recovery.examined.interface.directions
     one, two = ends
-    strained = recovery.solved([two]) - recovery.solved([one])
     rises = np.full((d, len(interface)), np.nan)
     low, high = sorted(shot.load_factor for shot in ends)
     between = [shot for shot in step.instants if low <= shot.load_factor <= high]
+    overlapping = {name for part in history.model.steps for name in part.interference}
     for i, law in enumerate(history.model.contacts):
         own, first, last = interface.contact == i, one.contacts[i], two.contacts[i]
-        if law.label not in {name for part in history.model.steps for name in part.interference} and first.wear is None:
+        if law.label not in overlapping and first.wear is None:
             rises[0, own] = last.gap - first.gap
         held = np.all([shot.contacts[i].closed for shot in (*between, one, two)], axis=0)
         slid = (last.slip - first.slip).reshape(len(held), -1).T
         slid = slid - interface.tangential_compliance[own] * (last.traction - first.traction).reshape(len(held), -1).T
         rises[1:, own] = np.where(held, slid, np.nan)
     rows = np.isfinite(rises.ravel())
-    B = interface.B[rows]
-    seen, wanted = B @ recovery.loose, rises.ravel()[rows] - (B @ strained)[:, 0]
+    B, risen = interface.B[rows], rises.ravel()[rows]
+    seen, wanted = B @ recovery.loose, risen - B @ strained
     sizes = np.linalg.svd(seen, compute_uv=False)
     if len(sizes) < seen.shape[1] or sizes[-1] <= _RANK_TOL * sizes[0]:
         return None
     motion = np.linalg.lstsq(seen, wanted)[0]
-    size = max(float(np.abs(step.displacement).max(initial=0.0)), float(np.abs(rises.ravel()[rows]).max()))
+    size = max(float(np.abs(step.displacement).max(initial=0.0)), float(np.abs(risen).max()))
     if np.abs(seen @ motion - wanted).max() > _FIT_TOL * size:
         return None
     return np.asarray(recovery.loose @ motion)

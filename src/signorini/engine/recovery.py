@@ -74,9 +74,13 @@ class Recovery:
         found = factorise(held, [], nodes=constraints.nodes, points=examined.space.places)
         return cls(examined=examined, K=K, factorisation=found, loose=loose)
 
-    @one_thread()
     def displacements(self, step: StepResult, moments: Sequence[Instant]) -> Iterator[Array]:
-        """Displacements (nodes, d) at moments of a step, some at once; compared with those at its end, which are kept.
+        """Displacements (nodes, d) at moments of a step; see `dofs`."""
+        yield from (self.examined.space.at_nodes(u) for u in self.dofs(step, moments))
+
+    @one_thread()
+    def dofs(self, step: StepResult, moments: Sequence[Instant]) -> Iterator[Array]:
+        """Displacements (dofs,) at moments of a step, some at once; compared with those at its end, which are kept.
 
         Raises
         ------
@@ -87,8 +91,7 @@ class Recovery:
         cuts = [*range(0, len(asked), _AT_ONCE), len(asked)]
         for low, high in pairwise(cuts):
             columns = self.solved(asked[low:high])
-            for u in columns.T[: len(moments) - low]:
-                yield self.examined.space.at_nodes(u)
+            yield from columns.T[: len(moments) - low]
             if high == len(asked) and not self._agrees(columns[:, -1], step, asked[-1]):
                 words = f"displacements on the way of '{step.name}' do not follow from loads and contacts alone"
                 raise InputError(f'{words}; expected at = "events" in it, which keeps them', where=("steps",))
@@ -96,7 +99,7 @@ class Recovery:
     def solved(self, moments: Sequence[Instant]) -> Array:
         """(dofs, k) Displacements of all dofs at k moments."""
         examined, constraints = self.examined, self.examined.constraints
-        loads = np.column_stack([self._loads(moment) for moment in moments])
+        loads = np.column_stack([self.loads(moment) + self.pressed(moment) for moment in moments])
         imposed = np.column_stack(
             [
                 sum((moment.factors[name] * u for name, u in constraints.prescribed.items()), np.zeros(len(loads)))
@@ -108,21 +111,27 @@ class Recovery:
         free = reduced.expand(reduced.load)
         return np.asarray(constraints.transform @ free + imposed)
 
-    def _loads(self, moment: Instant) -> Array:
-        """(dofs,) Loads and forces of the pairs on the bodies."""
-        interface, space = self.examined.interface, self.examined.space
+    def loads(self, moment: Instant) -> Array:
+        """(dofs,) Nodal forces of the loads."""
+        loads = (moment.factors[name] * f for name, f in self.examined.loads.items())
+        return np.asarray(sum(loads, np.zeros(self.examined.space.number_of_dofs)))
+
+    def pressed(self, moment: Instant) -> Array:
+        """(dofs,) Forces of the pairs on the bodies."""
+        interface = self.examined.interface
         forces = np.zeros((interface.directions, len(interface)))
         for i, contact in enumerate(moment.contacts):
             own = interface.contact == i
             forces[0, own] = contact.area * contact.pressure
             forces[1:, own] = (contact.area * contact.traction.T).reshape(interface.directions - 1, -1)
-        loads = (moment.factors[name] * f for name, f in self.examined.loads.items())
-        return np.asarray(sum(loads, np.zeros(space.number_of_dofs)) + interface.on_bodies(forces))
+        return np.asarray(interface.on_bodies(forces))
 
     def _agrees(self, found: Array, step: StepResult, end: Instant) -> bool:
         """Whether displacements mean the same nodal forces as those at the end of a step; rigid motions make none."""
         kept = found.copy()
         kept[: step.displacement.size] = step.displacement.ravel()
         forces = self.K @ found
-        size = max(float(np.abs(forces).max(initial=0.0)), float(np.abs(self._loads(end)).max(initial=0.0)))
+        size = max(
+            float(np.abs(forces).max(initial=0.0)), float(np.abs(self.loads(end) + self.pressed(end)).max(initial=0.0))
+        )
         return bool(np.abs(self.K @ kept - forces).max(initial=0.0) <= _AGREEMENT_TOL * size)

@@ -15,14 +15,13 @@ from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.energy import interface_energy, stored_energy, thermal_energy
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
+from signorini.engine.reactions import reactions, rigid_dofs, rigid_result
 from signorini.engine.step_parts import FollowedPart
 from signorini.engine.stride_pairs import where_bodies_are
 from signorini.engine.turning import forces_in_space
 from signorini.engine.validity_notes import step_notes
-from signorini.fem.obstacles import arm
 from signorini.interface.interface import Interface
 from signorini.law.states import OPEN, STICK
-from signorini.model.links import directions
 from signorini.model.stage import Stage
 from signorini.solution import results
 from signorini.solution.certificate import worst_of
@@ -30,7 +29,6 @@ from signorini.solution.contact_wear import ContactWear
 from signorini.solution.results import (
     ContactResult,
     Instant,
-    ObstacleResult,
     PlasticResult,
     StepResult,
     Yielding,
@@ -65,7 +63,9 @@ def step_result(
     layers = interface_energy(there, state)
     loads, held = _outside(prepared, followed)
     model = prepared.model
-    reactions, bolts = _reactions(prepared, state, held), {bolt.label for bolt in model.bolts}
+    bolts = {bolt.label for bolt in model.bolts}
+    space, u = prepared.space, state.displacement
+    forces = reactions(model, space, prepared.constraints, u, held)
     springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
     return StepResult(
         name=stage.title,
@@ -75,17 +75,15 @@ def step_result(
         displacement=frozen(_displacement(prepared, state)),
         external=frozen(_external(prepared, state, loads, held)),
         obstacles={
-            obstacle.name: _rigid_result(prepared, j, state, state.external)
+            obstacle.name: rigid_result(model, space, j, u, state.external)
             for j, obstacle in enumerate(model.obstacles)
         },
         rigid_bodies={
-            body.name: _rigid_result(prepared, j, state, loads + held)
+            body.name: rigid_result(model, space, j, u, loads + held)
             for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))
         },
-        reactions={name: force for name, force in reactions.items() if name not in bolts},
-        bolts=bolt_results(model, prepared.space.at_nodes(state.displacement), state.point.factors, reactions)
-        if bolts
-        else {},
+        reactions={name: force for name, force in forces.items() if name not in bolts},
+        bolts=bolt_results(model, space.at_nodes(u), state.point.factors, forces) if bolts else {},
         strain_energy=stored - layers - springs - state.closing_work + heat(state),
         interface_energy=layers + springs,
         work=state.work - before.work + heat(state) - heat(before),
@@ -161,31 +159,6 @@ def _plastic(before: State, state: State, *, whole: bool) -> PlasticResult | Non
     return PlasticResult(state=kept, dissipation=state.plastic_work - before.plastic_work)
 
 
-def _reactions(prepared: Prepared, state: State, held: Array) -> dict[str, Array]:
-    """Forces of supports, (dofs,) all together, and elastic foundations on the bodies, by name."""
-    model, owner, d = prepared.model, prepared.constraints.owner, prepared.model.components
-    rigid = {body.name: j for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))}
-    own = np.flatnonzero(owner >= 0)
-    total, arms = np.zeros((len(model.supports), d)), prepared.space.arms
-    np.add.at(total, (owner[own], own % d), held[own] * arms[own])
-    forces = {}
-    for i, support in enumerate(model.supports):
-        forces[support.label] = frozen(total[i])
-        if (j := rigid.get(str(support.on))) is not None:
-            dofs, size = _rigid_dofs(prepared, j)
-            forces[support.label] = frozen(np.where(owner[dofs] == i, held[dofs] * size, 0.0))
-    for name, S in prepared.constraints.springs.items():
-        forces[name] = frozen(-(S.T @ (S @ state.displacement) * arms).reshape(-1, d).sum(axis=0))
-    return forces
-
-
-def _rigid_dofs(prepared: Prepared, j: int) -> tuple[IntArray, Array]:
-    """Dofs of the rigid body j, obstacles first, and what their forces are multiplied by to be forces and moments."""
-    d = prepared.model.dimension
-    dofs = prepared.space.obstacle_dofs(j)[: len(directions(d))]
-    return dofs, np.where(np.arange(len(dofs)) < d, 1.0, arm(prepared.model))
-
-
 def _external(prepared: Prepared, state: State, loads: Array, held: Array) -> Array:
     """(nodes, d) Loads and reactions; those of a rigid body at its node of no cell, if one is at its point."""
     model, constraints = prepared.model, prepared.constraints
@@ -199,26 +172,8 @@ def _external(prepared: Prepared, state: State, loads: Array, held: Array) -> Ar
     loose = prepared.space.loose_nodes
     for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles)):
         here = loose[(model.mesh.points[loose] == np.array(body.point)).all(axis=1)]
-        at_nodes[here[:1], : model.dimension] += force[_rigid_dofs(prepared, j)[0][: model.dimension]]
+        at_nodes[here[:1], : model.dimension] += force[rigid_dofs(model, prepared.space, j)[0][: model.dimension]]
     return at_nodes
-
-
-def _rigid_result(prepared: Prepared, j: int, state: State, force: Array) -> ObstacleResult:
-    """The motion of the rigid body j, obstacles first, and of forces (dofs,) what acts on it from outside."""
-    d = prepared.model.dimension
-    dofs, size = _rigid_dofs(prepared, j)
-    motion, acting = state.displacement[dofs] / size, force[dofs] * size
-    return ObstacleResult(
-        displacement=frozen(motion[:d]),
-        rotation=_number(motion[d:]),
-        force=frozen(acting[:d]),
-        moment=_number(acting[d:]),
-    )
-
-
-def _number(values: Array) -> float | Array:
-    """One value as a number."""
-    return float(values[0]) if len(values) == 1 else frozen(values)
 
 
 def contacts_of(prepared: Prepared, before: State, state: State) -> tuple[ContactResult, ...]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from signorini.arrays import IntArray, padded
+from signorini.model.model import Model
 from signorini.output.atomic_write import write_csv
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
@@ -41,6 +42,12 @@ def _depths(contact: ContactResult, name: str) -> list[Any]:
     return [""] * len(contact.node) if contact.wear is None else getattr(contact.wear, name).tolist()
 
 
+def contact_columns(model: Model) -> Columns:
+    """Columns of the file by name, behind those that say which node it is."""
+    bonds = _BOND_COLUMNS if any(contact.cohesion for contact in model.contacts) else {}
+    return {**_COLUMNS, **(_WEAR_COLUMNS if model.wears else {}), **bonds}
+
+
 def _rows(step: int, contact: ContactResult, labels: IntArray, names: Columns) -> Iterator[dict[str, Any]]:
     """Nonmortar nodes with area of one contact at the end of a step, which counts from 1; numbers of all nodes."""
     columns = zip(labels[contact.node].tolist(), *(values(contact) for values in names.values()), strict=True)
@@ -51,9 +58,7 @@ def _rows(step: int, contact: ContactResult, labels: IntArray, names: Columns) -
 
 def write_contacts(history: History, path: Path) -> None:
     """Write the contacts at the end of every step as ``contact.csv``; numbers read back exactly."""
-    labels, names = history.model.mesh.labels, {**_COLUMNS, **(_WEAR_COLUMNS if history.model.wears else {})}
-    if any(contact.cohesion for contact in history.model.contacts):
-        names |= _BOND_COLUMNS
+    labels, names = history.model.mesh.labels, contact_columns(history.model)
     ends = ((number, contact) for number, step in enumerate(history.steps, start=1) for contact in step.contacts)
     rows = (row for number, contact in ends for row in _rows(number, contact, labels, names))
     write_csv(("step", "contact", "node", *names), rows, path)

@@ -94,6 +94,21 @@ def own_folder(path: Path, deck: str) -> Iterator[Path]:
         yield folder
 
 
+def write_folder(history: History, path: Path) -> list[Path]:
+    """Write a history as a run of a deck does, into a folder that may hold an earlier one; the files.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be written to, a run is at it, or it holds the results of a deck.
+    """
+    clock = Clock()
+    clock.seconds |= history.timings
+    started = time.perf_counter() - sum(history.timings.values())
+    with own_folder(path, "") as folder:
+        return Publisher(folder=folder, clock=clock, started=started).publish(history)
+
+
 def read_results(path: Path) -> History:
     """Read a history from an archive, or from the folder that holds it."""
     return read_folder(path) if path.is_dir() else read_archive(path)

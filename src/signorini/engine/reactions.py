@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What supports, elastic foundations, obstacles and rigid bodies bear, and how these move."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import Array, IntArray, frozen
+from signorini.fem.obstacles import arm
+from signorini.fem.space import Space
+from signorini.fem.supports import Constraints
+from signorini.model.links import directions
+from signorini.model.model import Model
+from signorini.solution.results import ObstacleResult
+
+
+def reactions(
+    model: Model, space: Space, constraints: Constraints, displacement: Array, held: Array
+) -> dict[str, Array]:
+    """Forces of supports and elastic foundations on the bodies, by name.
+
+    Parameters
+    ----------
+    model, space, constraints : of the bodies
+    displacement : (dofs,) length
+    held : (dofs,) forces of supports, all together
+    """
+    owner, d = constraints.owner, model.components
+    rigid = {body.name: j for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))}
+    own = np.flatnonzero(owner >= 0)
+    total, arms = np.zeros((len(model.supports), d)), space.arms
+    np.add.at(total, (owner[own], own % d), held[own] * arms[own])
+    forces = {}
+    for i, support in enumerate(model.supports):
+        forces[support.label] = frozen(total[i])
+        if (j := rigid.get(str(support.on))) is not None:
+            dofs, size = rigid_dofs(model, space, j)
+            forces[support.label] = frozen(np.where(owner[dofs] == i, held[dofs] * size, 0.0))
+    for name, S in constraints.springs.items():
+        forces[name] = frozen(-(S.T @ (S @ displacement) * arms).reshape(-1, d).sum(axis=0))
+    return forces
+
+
+def rigid_dofs(model: Model, space: Space, j: int) -> tuple[IntArray, Array]:
+    """Dofs of a rigid body, and what their forces are multiplied by to be forces and moments.
+
+    Parameters
+    ----------
+    model, space : of the bodies
+    j : its number, obstacles first
+    """
+    d = model.dimension
+    dofs = space.obstacle_dofs(j)[: len(directions(d))]
+    return dofs, np.where(np.arange(len(dofs)) < d, 1.0, arm(model))
+
+
+def rigid_result(model: Model, space: Space, j: int, displacement: Array, force: Array) -> ObstacleResult:
+    """The motion of the rigid body j, obstacles first, and what acts on it from outside.
+
+    Parameters
+    ----------
+    model, space : of the bodies
+    j : its number
+    displacement, force : (dofs,) of all dofs
+    """
+    d = model.dimension
+    dofs, size = rigid_dofs(model, space, j)
+    motion, acting = displacement[dofs] / size, force[dofs] * size
+    return ObstacleResult(
+        displacement=frozen(motion[:d]),
+        rotation=_number(motion[d:]),
+        force=frozen(acting[:d]),
+        moment=_number(acting[d:]),
+    )
+
+
+def _number(values: Array) -> float | Array:
+    """One value as a number."""
+    return float(values[0]) if len(values) == 1 else frozen(values)
