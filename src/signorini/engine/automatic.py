@@ -133,6 +133,8 @@ def _missing(prepared: Prepared, followed: FollowedPart) -> float:
 
 def _followed(part: StepPart, number: int, jump: Literal["stop", "follow"] | None) -> tuple[FollowedPart, str]:
     """A way in at most so many increments, and their number in words; equal ones where those to events are lost."""
+    if part.prepared.interface.cohesion is not None:  # bonds may hold what friction does not
+        return follow_increments(part, number), _counted(number)
     if not part.prepared.watched:
         return follow_watchfully(part, number, stops=jump == "stop"), _counted(number)
     try:

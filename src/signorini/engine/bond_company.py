@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What does not go with bonds in one model: refused by name."""
+"""What goes with bonds in one model: on exact paths, in increments, or not at all, and then refused by name."""
 
 from __future__ import annotations
 
@@ -10,49 +10,47 @@ from signorini.errors import InputError
 from signorini.interface.interface import Interface
 from signorini.model.model import Model
 
-_ITERATED = (
-    "needs the condensed interface, and this model is solved by iteration, because its factor does not fit or because "
-    "it was asked for; expected a smaller model, or none that is bonded"
-)
+
+def in_increments(model: Model) -> str | None:
+    """Why bonds of a model are followed in increments, in words; None where they are on exact paths."""
+    if model.yields:
+        return "a body yields"
+    if any(contact.closure is not None for contact in model.contacts):
+        return "another contact has a closure"
+    for contact in model.contacts:
+        rubs = contact.friction not in (0.0, "stick", "tied")
+        if not contact.law.straight or ((model.dimension == 3 or model.twists) and rubs and not contact.facets):
+            return f"friction of '{contact.label}' turns between events, it has neither facets nor straight branches"
+    return None
 
 
 def refuse_beside_bonds(model: Model) -> None:
-    """Refuse what bonds, which are followed on exact paths alone, do not go with.
+    """Refuse what bonds do not go with.
 
     Raises
     ------
     InputError
-        Bodies that yield, contacts that wear, slide far or close by a law, smooth cones of friction in space, steps
-        that change contacts or that say no exact path is wanted.
+        Contacts that wear or slide far, fatigue, steps that change contacts, or whose path is to be exact where it
+        cannot be.
     """
     first = next(i for i, contact in enumerate(model.contacts) if contact.cohesion is not None)
     for found, words in (
-        (model.yields, "a body yields; expected elastic bodies"),
         (model.wears, "a contact wears; expected none that does"),
         (model.slides, "sides slide far; expected sides that stay opposite each other"),
-        (
-            any(contact.closure is not None for contact in model.contacts),
-            "another contact has a closure; expected none",
-        ),
         (bool(model.fatigue), "fatigue is asked for; expected none"),
     ):
         if found:
             raise InputError(f"is given, but {words}", where=("contact", first, "cohesion"))
-    for i, contact in enumerate(model.contacts):
-        rubs = contact.friction not in (0.0, "stick", "tied")
-        if not contact.law.straight or ((model.dimension == 3 or model.twists) and rubs and not contact.facets):
-            words = "turns between events, and bonds are followed exactly; expected facets, or straight branches"
-            raise InputError(words, where=("contact", i, "friction"))
+    why = in_increments(model)
     for i, step in enumerate(model.steps):
         for key in ("friction", "active", "inactive"):
             if getattr(step, key):
                 raise InputError(
                     "changes contacts of a model with bonds; expected contacts as they are", where=("step", i, key)
                 )
-        if step.increments == "auto":
-            raise InputError(
-                'is "auto", but bonds are followed exactly; expected a number or none', where=("step", i, "increments")
-            )
+        if step.path == "exact" and why is not None:
+            words = f'is "exact", but bonds are followed in increments where {why}'
+            raise InputError(f"{words}; expected none", where=("step", i, "path"))
 
 
 def refuse_held(model: Model, interface: Interface, held: BoolArray) -> None:
@@ -74,15 +72,3 @@ def refuse_held(model: Model, interface: Interface, held: BoolArray) -> None:
         number = model.mesh.labels[interface.node[found[0]]]
         words = f"bonds node {number}, whose both sides supports hold; expected one side there free to move"
         raise InputError(words, where=("contact", int(interface.contact[found[0]]), "cohesion"))
-
-
-def refuse_iterated(model: Model) -> None:
-    """Refuse bonds where contact is solved on the bodies as they are.
-
-    Raises
-    ------
-    InputError
-        With the first contact that is bonded.
-    """
-    first = next(i for i, contact in enumerate(model.contacts) if contact.cohesion is not None)
-    raise InputError(_ITERATED, where=("contact", first, "cohesion"))

@@ -16,6 +16,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
 from signorini.engine.bond_rates import BondCourse, Posed, bonds_of, course, full_along, left_shear, pose, stiffness
+from signorini.engine.bond_trial import sheared_off
 from signorini.engine.energy import set_free
 from signorini.engine.increments import certified, leaving
 from signorini.engine.path_states import path_state, recovered, right_hand_side
@@ -261,7 +262,9 @@ def broken(part: StepPart, behind: Sequence[FollowedPart], *, stops: bool) -> Fo
     cohesion = bonds_of(prepared, state)[0]
     sliding = full_along(prepared, state) & (cohesion.opening > 0.0)
     if sliding.any():
-        raise SolveFailed(_sheared_off(part, sliding), status=Outcome.NOT_FOUND)
+        number = prepared.model.mesh.labels[prepared.interface.node[np.flatnonzero(sliding)[0]]]
+        words = f"{part.where} at {part.interval.low:.6%}: {sheared_off(number)}"
+        raise SolveFailed(words, status=Outcome.NOT_FOUND)
     if len(behind) >= _JUMPS and all(found.snapshots[0].what == "landing" for found in behind[-_JUMPS:]):
         words = told(
             f"{part.where} at {part.interval.low:.6%}: bonds let go, hold again, and let go",
@@ -371,16 +374,6 @@ def _events(part: StepPart, gone: BoolArray) -> tuple[PairEvent, ...]:
         label = part.prepared.model.contacts[contact].label
         found.append(PairEvent(load_factor=part.interval.factor(0.0), contact=label, nodes=nodes, what="breaks"))
     return tuple(found)
-
-
-def _sheared_off(part: StepPart, sliding: BoolArray) -> str:
-    """Bonds that soften, and whose strength along the sides is reached, in words."""
-    number = part.prepared.model.mesh.labels[part.prepared.interface.node[np.flatnonzero(sliding)[0]]]
-    return told(
-        f"{part.where} at {part.interval.low:.6%}: the bond of node {number} bears no more along the sides",
-        remedy="bonds that let go at once, or without a shear_strength",
-        evidence="bonds that soften are followed for tension alone",
-    )
 
 
 def _silent(_done: float) -> None:

@@ -59,6 +59,11 @@ class Examined:
     scale: Scale
 
     @property
+    def has_laws(self) -> bool:
+        """Whether any pair closes by a law or is bonded."""
+        return self.interface.closure is not None or self.interface.cohesion is not None
+
+    @property
     def turns(self) -> bool:
         """Whether any body may turn by any angle."""
         return self.model.slides and bool(self.frames)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from signorini.arrays import Array, IntArray
 from signorini.attempt import MethodRun
 from signorini.clock import Clock
+from signorini.law.cohesion import Bonds
 from signorini.outcome import Outcome
 from signorini.plasticity.state import PlasticState
 from signorini.solution.discrete_model import DiscreteModel
@@ -77,6 +78,8 @@ class IncrementAnswer:
     escape : (k,) combination of the floating motions along which bodies leave, where it is known
     plastic : what the points of bodies that yield remember at the end
     mechanisms : velocities of the bodies where plastic flow runs away; every one may bound the load
+    pull : (d, n) of the forces, those of bonds beside what the law of contact bears; None where no pair is bonded
+    bonds : what bonds remember at the end; None where no pair is bonded
     """
 
     outcome: Outcome
@@ -90,6 +93,8 @@ class IncrementAnswer:
     escape: Array | None = None
     plastic: PlasticState | None = None
     mechanisms: tuple[Mechanism, ...] = ()
+    pull: Array | None = None
+    bonds: Bonds | None = None
 
     @property
     def solved(self) -> bool:

@@ -173,18 +173,20 @@ def _recovered(prepared: Prepared, increment: Increment, answer: IncrementAnswer
         status = np.full(n, OPEN)
         status[active] = answer.status
         status[interface.tied] = STICK
-        forces, status = settled(prepared, answer.forces, status)
-        return next_state(
+        pull = 0.0 if answer.pull is None else answer.pull
+        forces, status = settled(prepared, answer.forces - pull, status)
+        new = next_state(
             prepared,
             increment.state,
             point=point,
             loads=loads,
             displacement=displacement,
-            forces=forces + point.given,
+            forces=forces + (point.given + pull),
             moved=moved,
             status=status,
             plastic=answer.plastic,
         )
+        return new if answer.bonds is None else replace(new, bonds=answer.bonds)
 
 
 def _polished(
@@ -288,6 +290,7 @@ def _half_way(one: State, two: State) -> State:
         external=0.5 * (one.external + two.external),
         forces=0.5 * (one.forces + two.forces),
         borne=None if two.borne is None else two.borne.half_way(one.borne),
+        bonds=one.bonds,
     )
 
 
@@ -378,7 +381,7 @@ def _failure(prepared: Prepared, answer: IncrementAnswer, where: str) -> SolveFa
     """The reason, and the bodies that leave by name, with their motion."""
     if answer.escape is None:
         failure = SolveFailed(f"{where}: {answer.message}", status=answer.outcome)
-        failure.mechanisms = answer.mechanisms
+        failure.mechanisms = answer.mechanisms if prepared.interface.cohesion is None else ()  # bonds resist too
         return failure
     words, motion = moving_away(prepared, prepared.floating @ answer.escape)
     return SolveFailed(f"{where}: {words}: {answer.message}", status=answer.outcome, motion=motion)

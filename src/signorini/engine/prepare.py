@@ -13,10 +13,10 @@ from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
 from signorini.condense.ties import Ties
-from signorini.engine.bond_company import refuse_held, refuse_iterated
+from signorini.engine.bond_company import refuse_held
+from signorini.engine.bond_solver import with_laws
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_model
-from signorini.engine.closure_solver import ClosureSolver
 from signorini.engine.condensation import condense_bodies, free_bodies, whole_stiffness
 from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
 from signorini.engine.memory_check import iterates, refuse_unassembled
@@ -362,14 +362,12 @@ def condensed_model(
             data["constraints"] = _with_ties(examined, condensed.ties)
         solver = CondensedSolver.of(condensed, interface, data["scale"], settings)
     if interface.cohesion is not None:
-        if condensed is None:
-            refuse_iterated(examined.model)
         refuse_held(examined.model, interface, solver.held)
     return Prepared(
         **data,
         K=K,
         absent=np.zeros(len(interface), bool),
-        solver=solver if interface.closure is None else ClosureSolver(bodies=solver),
+        solver=with_laws(solver, examined) if examined.has_laws else solver,
         clock=clock,
         backend=backend,
         candidates=candidates,

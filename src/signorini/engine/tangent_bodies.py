@@ -13,7 +13,7 @@ from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import condense
 from signorini.condense.kept import Kept
-from signorini.engine.closure_solver import ClosureSolver
+from signorini.engine.bond_solver import with_laws
 from signorini.engine.condensation import free_bodies
 from signorini.engine.examine import Examined
 from signorini.engine.multipliers import PATIENCE, make_multipliers
@@ -117,7 +117,7 @@ class TangentBodies:
         if self.whole:
             found = make_multipliers(examined, reduced, self.bodies.B, self.near, settings)
             found = replace(found, bodies=replace(found.bodies, patience=PATIENCE))
-            return found if examined.interface.closure is None else ClosureSolver(bodies=found)
+            return with_laws(found, examined) if examined.has_laws else found
         scale = examined.scale
         condensed = condense(
             self.bodies._replace(K=reduced),
@@ -130,7 +130,7 @@ class TangentBodies:
             plans=self.plans,
         )
         made = CondensedSolver.of(condensed, examined.interface, scale, settings)
-        return made if examined.interface.closure is None else ClosureSolver(bodies=made)
+        return with_laws(made, examined) if examined.has_laws else made
 
     def substitution_share(self, solver: ContactSolver, operations: float) -> float | None:
         """Price of a round on the factor at hand over that of one on a new factor; None: not known, or in the plane.

@@ -7,6 +7,7 @@ from dataclasses import replace
 from math import ceil
 
 from signorini.engine.automatic import follow_automatically
+from signorini.engine.bond_increments import BOND_INCREMENTS, told_of_breaks, with_increments
 from signorini.engine.events import follow_exactly
 from signorini.engine.floating_bodies import approached, resting
 from signorini.engine.increments import follow_increments
@@ -57,6 +58,26 @@ def follow_part(stage: Stage, part: StepPart) -> FollowedPart:
 
 
 def _bonded(stage: Stage, part: StepPart) -> FollowedPart:
+    """Follow a straight part of a step with bonds: exactly where that is possible and no increments are asked for."""
+    step = stage.step
+    uncondensed = part.prepared.solver.paths is None and step.path != "exact"
+    if uncondensed or step.path == "increments" or step.increments == "auto":
+        return told_of_breaks(part, _bonded_in_increments(stage, with_increments(part)))
+    return _bonded_exactly(stage, part)
+
+
+def _bonded_in_increments(stage: Stage, part: StepPart) -> FollowedPart:
+    """Follow a straight part of a step with bonds in as many increments as are asked for, or as it takes."""
+    step = stage.step
+    if part.prepared.flows:
+        return follow_plastically(part, step, lambda elastic: _bonded_in_increments(stage, elastic))
+    if step.increments == "auto" or (step.increments is None and step.path is None):
+        tolerance = step.tolerance or TOLERANCE_OF_FORCES
+        return follow_automatically(part, tolerance, enough=BOND_INCREMENTS)
+    return follow_increments(part, _increments(step, part.interval, stage))
+
+
+def _bonded_exactly(stage: Stage, part: StepPart) -> FollowedPart:
     """Follow a straight part of a step with bonds, exactly; increments that are asked for are ends on the way."""
     step, behind = stage.step, []
     number = _increments(step, part.interval, stage)

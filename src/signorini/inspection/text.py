@@ -7,6 +7,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.deck import Deck
+from signorini.engine.bond_company import in_increments
 from signorini.engine.duplicate_check import same_loads
 from signorini.engine.examine import Examined
 from signorini.engine.plastic_steps import TOLERANCE as TOLERANCE_OF_FLOW
@@ -217,9 +218,13 @@ def _stepping(step: Step, model: Model) -> str:
 
 def _way(step: Step, model: Model) -> str:
     yields = model.yields
+    auto = step.increments == "auto" or (yields and step.increments is None and step.path is None)
     if any(contact.cohesion for contact in model.contacts):
-        return "exact path" if step.increments in (None, 1) else f"exact path, in {step.increments} parts"
-    if step.increments == "auto" or (yields and step.increments is None and step.path is None):
+        exactly = step.path != "increments" and step.increments != "auto" and in_increments(model) is None
+        if exactly:
+            return "exact path" if step.increments in (None, 1) else f"exact path, in {step.increments} parts"
+        auto = auto or (step.increments is None and step.path is None)
+    if auto:
         tolerance = step.tolerance or (TOLERANCE_OF_FLOW if yields else TOLERANCE_OF_FORCES)
         return f"{'elastic to first yield, then ' * yields}increments until forces change less than {tolerance:g}"
     if step.increments is not None:

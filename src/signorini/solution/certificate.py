@@ -132,15 +132,13 @@ def certify(
     gap = state.point.gap / scale.length + moved[0]
     normal, tangential = r[0] / scale.force, r[1:] / scale.force
     sliding = moved[1:] - before / scale.length
-    pressing, held = r[0], interface.tied
+    pressing, held, free = r[0], interface.tied, np.zeros_like(interface.tied)
     if interface.cohesion is not None and state.bonds is not None:
         pressing = r[0] + interface.cohesion.tension(state.bonds, scale.length * gap)
-        normal, held = (
-            pressing / scale.force,
-            held | interface.cohesion.sticking(state.bonds),
-        )
+        sticks = interface.cohesion.sticking(state.bonds)
+        normal, held, free = pressing / scale.force, held | sticks, interface.cohesion.holds(state.bonds) & ~sticks
     gap, tension = np.where(interface.tied, -np.abs(gap), gap), np.where(interface.tied, 0.0, normal)
-    bound = np.where(held, np.inf, interface.most(pressing) / scale.force)
+    bound = np.where(held, np.inf, np.where(free, 0.0, interface.most(pressing) / scale.force))
     room = bound - interface.effort(tangential)
     friction = _friction(interface, bound, tangential, sliding, room)
     gap, normal, tension, room, friction = (
