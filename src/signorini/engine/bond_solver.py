@@ -17,6 +17,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
+from signorini.condense.condensed import Condensed
 from signorini.engine.bond_company import in_increments
 from signorini.engine.bond_tensions import Tensions
 from signorini.engine.bond_trial import (
@@ -89,6 +90,11 @@ class BondSolver:
     @property
     def paths(self) -> None:
         """None: exact paths with bonds are those of `engine.bond_paths`."""
+
+    @property
+    def condensed(self) -> Condensed | None:
+        """The interface as the bodies feel it, without bonds."""
+        return self.bodies.condensed
 
     @property
     def elastic(self) -> BondSolver:
