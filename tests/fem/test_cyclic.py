@@ -8,7 +8,10 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
+from signorini.fem.probe import StressProbe
+from signorini.fem.stress import DeformedBodies, space_of
 from signorini.gallery.sectors import SECTORS, ring_on_pads, ring_on_shaft
+from signorini.plasticity.fields import nodal_fields
 
 STEEL = sg.Elastic(E=200.0, nu=0.3, density=2.0)
 
@@ -40,6 +43,22 @@ def nearest(points, at):
     return np.array([np.argmin(np.linalg.norm(points - x, axis=1)) for x in at])
 
 
+def same_stresses(whole, sector):
+    """Nodes of a sector, those of its sides too, have the stresses and plastic strains that the whole has there."""
+    one, part = sg.solve(whole), sg.solve(sector)
+    for body in sector.bodies:
+        there, own = one.stress(body.name), part.stress(body.name)
+        at = nearest(whole.mesh.points[there.nodes], sector.mesh.points[own.nodes])
+        assert np.abs(own.stress - there.stress[at]).max() < 1e-9 * np.abs(there.stress).max()
+        probe = StressProbe.at_nodes(
+            space_of(sector), sector, np.column_stack([np.zeros(len(own.nodes), int), own.nodes])[::7]
+        )
+        if len(sector.bodies) == 1 and not sector.yields:
+            deformed = DeformedBodies.of(space_of(sector), sector, part.steps[-1].displacement)
+            assert probe.stress(deformed)[0] == pytest.approx(own.stress[::7], abs=1e-12 * np.abs(own.stress).max())
+    return one, part
+
+
 def test_a_sector_of_a_ring_is_the_ring():
     whole = sg.Model(
         ring(360.0, 48),
@@ -56,8 +75,57 @@ def test_a_sector_of_a_ring_is_the_ring():
     at = nearest(whole.mesh.points, sector.mesh.points)
     assert part.displacement == pytest.approx(one.displacement[at], abs=1e-11 * np.abs(one.displacement).max())
     assert SECTORS * part.strain_energy == pytest.approx(one.strain_energy, rel=1e-11)
+    same_stresses(whole, sector)
     turned = replace(sector, cyclic_symmetries=[sg.CyclicSymmetry("end", "start", sectors=SECTORS)])
     assert sg.solve(turned).steps[-1].strain_energy == pytest.approx(part.strain_energy, rel=1e-12)
+
+
+def fan(sectors):
+    """A disc of triangles about its centre, a part of it of so many sixths."""
+    angle = np.pi / 3.0 * np.arange(0.0, sectors + 0.25, 0.5)
+    ring = angle[:-1] if sectors == SECTORS else angle
+    rim = np.column_stack([np.cos(ring), np.sin(ring)])
+    n = len(ring)
+    one, two = np.arange(len(angle) - 1), np.arange(1, len(angle)) % n
+    inner = np.column_stack([np.zeros(len(one), int), 1 + one, 1 + two])
+    outer = [np.column_stack(rows) for rows in ((1 + one, 1 + n + one, 1 + n + two), (1 + one, 1 + n + two, 1 + two))]
+    ends = {"rim": np.column_stack([1 + n + one, 1 + n + two])}
+    if sectors < SECTORS:
+        ends |= {"start": np.array([[0, 1], [1, 1 + n]]), "end": np.array([[0, n], [n, 2 * n]])}
+    return sg.Mesh(
+        points=np.vstack([np.zeros((1, 2)), rim, 2.0 * rim]),
+        cells={"triangle": np.vstack([inner, *outer])},
+        bodies={"disc": np.arange(3 * len(one))},
+        boundaries=ends,
+    )
+
+
+def test_stresses_on_the_axis_are_those_of_all_sectors():
+    whole = sg.Model(
+        fan(SECTORS),
+        bodies=[sg.Body("disc", STEEL)],
+        supports=[sg.Support("rim", u=(0.0, 0.0))],
+        loads=[sg.Load("disc", centrifugal=0.5)],
+    )
+    part = replace(whole, mesh=fan(1), cyclic_symmetries=[sg.CyclicSymmetry("start", "end", sectors=SECTORS)])
+    same_stresses(whole, part)
+
+
+def test_plastic_strains_on_the_sides_are_those_of_the_whole():
+    yields = sg.Elastic(E=200.0, nu=0.3, plastic=sg.Plastic(0.9, hardening=20.0))
+    whole = sg.Model(
+        ring(360.0, 24),
+        bodies=[sg.Body("ring", yields)],
+        supports=[sg.Support("inner", u=(0.0, 0.0))],
+        loads=loads("")[:2],
+        steps=[sg.Step(increments=1)],
+    )
+    sector = replace(whole, mesh=ring(60.0, 4), cyclic_symmetries=[sg.CyclicSymmetry("start", "end", sectors=SECTORS)])
+    one, part = same_stresses(whole, sector)
+    at = nearest(whole.mesh.points, sector.mesh.points)
+    fields = [nodal_fields(space_of(each.model), each.model, each.end.state.plastic)[0].strain for each in (one, part)]
+    assert np.abs(fields[1] - fields[0][at]).max() < 1e-6 * np.abs(fields[0]).max()
+    assert np.abs(fields[0]).max() > 1e-4
 
 
 def test_a_sector_with_contact_and_friction_is_the_whole():

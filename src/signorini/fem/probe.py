@@ -10,6 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.fem.cyclic import cyclic_sides
 from signorini.fem.elasticity import elasticities, elasticity
 from signorini.fem.kinematics import Group, groups
 from signorini.fem.path import located
@@ -52,6 +53,9 @@ class StressProbe:
         """
         wanted = np.zeros((len(model.bodies), len(space.mesh.points)), bool)
         wanted[nodes[:, 0], nodes[:, 1]] = True
+        for j in range(len(model.cyclic_symmetries)):  # cells beside a sector are those at its other side
+            _, first, second = cyclic_sides(space, model, j)
+            wanted[:, first] = wanted[:, second] = wanted[:, first] | wanted[:, second]
         within = []
         for group in groups(space, model):
             own = wanted[group.body[:, None], group.cells].any(axis=1)

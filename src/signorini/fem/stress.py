@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.fem.cyclic import cyclic_sides
 from signorini.fem.elasticity import elasticities, elasticity
 from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, mean_in_cells
 from signorini.fem.links import linked_nodes
@@ -166,8 +167,12 @@ def nodal_averages(
     at_best: Callable[[Group], Array],
     components: int,
     within: Sequence[Group] | None = None,
+    *,
+    scalars: int = 0,
 ) -> list[tuple[IntArray, Array]]:
     """Sorted nodes (k,) of every body and values there (k, components), averaged with the areas of the cells.
+
+    Those of the sectors beside it are among the cells of a sector.
 
     Parameters
     ----------
@@ -175,6 +180,7 @@ def nodal_averages(
     at_best : values (m, p, components) of a group at the best points of its cells
     components : of a value
     within : the cells that are looked at; all if not given
+    scalars : components that come before tensors
     """
     count = len(space.mesh.points)
     total, weight = np.zeros((len(model.bodies), count, components)), np.zeros((len(model.bodies), count))
@@ -184,8 +190,45 @@ def nodal_averages(
         area = space.volumes_of(group.block)[group.index].sum(axis=1)
         np.add.at(total, (group.body[:, None], cells), at_nodes * area[:, None, None])
         np.add.at(weight, (group.body[:, None], cells), area[:, None])
+    if model.cyclic_symmetries:
+        _add_sectors_beside(space, model, (total, weight), scalars)
     nodes = [np.nonzero(own)[0] for own in weight]
     return [(own, total[i, own] / weight[i, own, None]) for i, own in enumerate(nodes)]
+
+
+def _add_sectors_beside(space: Space, model: Model, sums: tuple[Array, Array], scalars: int) -> None:
+    """Add what the cells of the sectors on both sides have at nodes that they share with this one.
+
+    Parameters
+    ----------
+    space, model : of the bodies
+    sums : (bodies, n, components) of values and (bodies, n) of their weights, which change
+    scalars : components that come before tensors
+    """
+    for j, symmetry in enumerate(model.cyclic_symmetries):
+        turn, first, second = cyclic_sides(space, model, j)
+        for total, weight in zip(*sums, strict=True):
+            both = (weight[first] > 0.0) & (weight[second] > 0.0)
+            on_axis = first[both & (first == second)]
+            one, other = first[both & (first != second)], second[both & (first != second)]
+            whole = total[other] + _turned(total[one], turn, scalars)
+            total[one], total[other] = _turned(whole, turn.T, scalars), whole
+            weight[one] = weight[other] = weight[one] + weight[other]
+            mean = now = total[on_axis]
+            for _ in range(symmetry.sectors - 1):
+                now = _turned(now, turn, scalars)
+                mean = mean + now
+            total[on_axis] = mean / symmetry.sectors
+
+
+def _turned(values: Array, turn: Array, scalars: int) -> Array:
+    """Rows of scalars, and of tensors of six components, or of the four of a plane, behind them, in other axes."""
+    width = values.shape[1] - scalars
+    count = max(1, width // 6)
+    tensors = np.zeros((len(values), 6 * count))
+    tensors[:, :width] = values[:, scalars:]
+    found = turned(tensors.reshape(len(values), count, 6), turn).reshape(tensors.shape)
+    return np.concatenate([values[:, :scalars], found[:, :width]], axis=1)
 
 
 def point_stresses(deformed: DeformedBodies) -> Iterator[tuple[IntArray, Array]]:

@@ -88,7 +88,7 @@ def nodal_fields(space: Space, model: Model, state: PlasticState) -> list[Plasti
     def at_best(group: Group) -> Array:
         return _at_best(group, values)
 
-    return [PlasticFields.of(rows) for _, rows in nodal_averages(space, model, at_best, _WIDTH)]
+    return [PlasticFields.of(rows) for _, rows in nodal_averages(space, model, at_best, _WIDTH, scalars=1)]
 
 
 def point_fields(space: Space, model: Model, state: PlasticState) -> Iterator[tuple[IntArray, PlasticFields]]:
