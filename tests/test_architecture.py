@@ -79,7 +79,7 @@ ALLOWED = {
     "solution": {"law", "model", "fem", "interface", "plasticity"},
     "engine": CORE,
     "vibration": CORE | {"engine"},
-    "accuracy": CORE,
+    "accuracy": CORE | {"engine", "derivative"},
     "derivative": CORE | {"engine"},
     "deck": {"law", "fatigue", "model", "meshing", "fem"},
     "output": {"solution", "law", "fatigue", "model", "meshing", "fem", "plasticity"},

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.accuracy.refine import estimate
+from signorini.accuracy.estimate import estimate
 from signorini.cli.main import main
 from signorini.gallery import coarse
 from signorini.plot.accuracy import draw_accuracy
@@ -32,7 +32,7 @@ def true_error(solution, reference):
 
 @pytest.fixture(scope="module")
 def references():
-    fine = sg.Accuracy(2e-3, nodes=40_000)
+    fine = sg.Accuracy(3e-3, nodes=40_000)
     return {"hertz": sg.solve(hertz(), accuracy=fine), "cylinder": sg.solve(cylinder(), accuracy=fine)}
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 import textwrap
 import time
@@ -12,12 +13,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from signorini.accuracy.refine import accurate, refuse_one_mesh
 from signorini.checks import number
 from signorini.cli.progress import progress
 from signorini.clock import Clock
 from signorini.deck import Deck
+from signorini.deck.keys import check_keys
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.iterative.bodies import ITERATIVE
@@ -32,6 +35,9 @@ from signorini.output.folder import Publisher, own_folder
 from signorini.output.table import history_table
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.history import History
+
+_ACCURACY: dict[str, Callable[[str], Any]] = {"of": str, "nodes": int, "memory": float, "seconds": float}
+"""What the command line may say behind an accuracy, and how it is read."""
 
 
 @one_thread()
@@ -126,16 +132,21 @@ def _start(name: str | None) -> Checkpoint | None:
 
 
 def _accuracy(deck: Deck, given: str | None) -> Asked | None:
-    """What the command line asks for, or else the deck."""
+    """What the command line asks for, "0.01" or "0.01,of=energy,nodes=50000", or else the deck."""
     if given is None or given == "estimate":
         return deck.accuracy if given is None else "estimate"
+    first, *rest = re.split(r",(?=\w+=)", given)
+    asked = deck.accuracy if isinstance(deck.accuracy, Accuracy) else Accuracy(1.0)
+    more = dict(part.split("=", 1) for part in rest)
     try:
-        error = number(float(given), (), above=0.0)
-    except (ValueError, InputError) as wrong:
-        raise InputError(
-            f"is '{given}'; expected a relative error > 0, or 'estimate'", where=("--accuracy",)
-        ) from wrong
-    return replace(deck.accuracy, error=error) if isinstance(deck.accuracy, Accuracy) else error
+        check_keys(more, (), known=_ACCURACY)
+        bounds = {key: _ACCURACY[key](part) for key, part in more.items()}
+        return replace(asked, error=number(float(first), ("error",), above=0.0), **bounds)
+    except ValueError as wrong:
+        words = "expected a relative error > 0, or 'estimate'"
+        if isinstance(wrong, InputError) and wrong.where != ("error",):
+            words = str(wrong)
+        raise InputError(f"is '{given}'; {words}", where=("--accuracy",)) from wrong
 
 
 def _solve(

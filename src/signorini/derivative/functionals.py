@@ -189,6 +189,8 @@ def _half_width(output: HalfWidth, view: HistoryView, r: Array, none: Array) -> 
         s = s - (float(force @ s) / total if not output.about else _along(output.about, 2) @ tangent)
     second = float(force @ s**2) / total
     width = float(np.sqrt(factor * second))
+    if width <= 0.0:
+        raise InputError(f"contact '{output.contact}' touches in one place; its half-width has no derivative")
     of_r[0, own] = 0.5 * factor * (s**2 - second) / (total * width)
     return width, none, of_r
 

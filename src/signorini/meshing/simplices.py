@@ -68,10 +68,8 @@ class Simplices:
         ((4, 3), (13, 3))
         """
         points, d = mesh.points, mesh.points.shape[1]
-        inside = among(mesh.cells.values(), len(points))
-        corner = among((cells[:, : CORNERS[family]] for family, cells in mesh.cells.items()), len(points))
-        kept = corner | ~inside
-        number = np.cumsum(kept) - 1
+        number = corner_numbers(mesh)
+        kept = number >= 0
         parts, first = [], 0
         for family, cells in mesh.cells.items():
             owner, corners = cone_simplices(family, cells[:, : CORNERS[family]])
@@ -190,6 +188,14 @@ class Simplices:
     ) -> Mesh:
         facets = dict(self.boundaries) | dict(boundaries) | dict(self.tools)
         return Mesh(points=points, cells=cells, bodies=self.bodies, boundaries=facets, nodes=nodes)
+
+
+def corner_numbers(mesh: Mesh) -> IntArray:
+    """(n,) Of the nodes of a mesh among those that simplices keep: corners, and nodes of no cell; -1 of others."""
+    inside = among(mesh.cells.values(), len(mesh.points))
+    corner = among((cells[:, : CORNERS[family]] for family, cells in mesh.cells.items()), len(mesh.points))
+    kept = corner | ~inside
+    return np.where(kept, np.cumsum(kept) - 1, -1)
 
 
 class _Halves:

@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal, get_args
+from typing import Literal, cast, get_args
 
-from signorini.checks import choice, number, whole
-from signorini.errors import InputError
+from signorini.checks import number, whole
+from signorini.errors import InputError, one_of
 from signorini.model.obstacle import Obstacle
+from signorini.model.output_words import EXAMPLES, output_of
+from signorini.model.outputs import Output
 
 AccurateIn = Literal["pressure", "traction", "energy"]
 """What is to be accurate: pressures of the contacts, their pressures and frictions, or stresses in the bodies."""
@@ -23,8 +25,10 @@ class Accuracy:
     ----------
     error : relative, > 0; 0.01 is one per cent
     of : "pressure": of all contacts, root of the mean square; "traction": of their friction too; "energy": of the
-        stresses in all bodies, in the norm of energy
+        stresses in all bodies, in the norm of energy; or an output, ``signorini.pressure("c").peak`` or the words that
+        it prints, "peak pressure": of its own size. Its nodes are those of the mesh to begin with
     nodes : most nodes of a mesh that is tried
+    memory : most bytes that the process is expected to take with it; None: as many as are free
     seconds : of the clock after which no finer mesh is begun; None: no matter how many
     shapes : boundary to the shape that it stands for and that new nodes go onto: one of those of obstacles; "spline"
         through its nodes, in the plane; "straight", as the mesh has it. Of others a circle, a sphere or a cylinder is
@@ -45,23 +49,39 @@ class Accuracy:
     """
 
     error: float
-    of: AccurateIn = "pressure"
+    of: AccurateIn | Output | str = "pressure"
     nodes: int = 200_000
+    memory: float | None = None
     seconds: float | None = None
     shapes: Mapping[str, Obstacle | Literal["spline", "straight"]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "error", number(self.error, ("error",), above=0.0))
-        choice(self.of, get_args(AccurateIn), ("of",), "kind of accuracy")
+        object.__setattr__(self, "of", _kind(self.of))
         object.__setattr__(self, "nodes", whole(self.nodes, ("nodes",), least=1))
-        if self.seconds is not None:
-            object.__setattr__(self, "seconds", number(self.seconds, ("seconds",), above=0.0))
+        for name in ("memory", "seconds"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, number(getattr(self, name), (name,), above=0.0))
         if not isinstance(self.shapes, Mapping):
             raise InputError(f"is {self.shapes!r}; expected boundaries and their shapes", where=("shapes",))
         for name, shape in self.shapes.items():
             if not isinstance(shape, Obstacle) and shape not in ("spline", "straight"):
                 words = "a shape, 'spline' or 'straight'"
                 raise InputError(f"is {shape!r}; expected {words}", where=("shapes", str(name)))
+
+
+def _kind(of: object) -> AccurateIn | Output:
+    """A norm, or an output by its words."""
+    for known in get_args(AccurateIn):
+        if of == known:
+            return cast(AccurateIn, known)
+    if isinstance(of, Output):
+        return of
+    try:
+        return output_of(str(of))
+    except InputError as error:
+        known = (*get_args(AccurateIn), *EXAMPLES)
+        raise InputError(one_of(str(of), known, "kind of accuracy"), where=("of",)) from error
 
 
 Asked = float | Accuracy | Literal["estimate"]

@@ -36,6 +36,7 @@ _HOMES = (
     "signorini.model.rigid",
     "signorini.model.mesh",
     "signorini.model.model",
+    "signorini.model.outputs",
     "signorini.model.plastic",
     "signorini.model.stage",
     "signorini.model.step",

@@ -93,13 +93,14 @@ def _accuracy(history: History) -> dict[str, Any] | None:
         return None
     asked = found.asked
     return {
-        "asked": None if asked is None else {"error": asked.error, "of": asked.of},
+        "asked": None if asked is None else {"error": asked.error, "of": str(asked.of)},
         "met": found.met,
         "reason": found.reason,
         "pressure": found.pressure,
         "traction": found.traction,
         "energy": found.energy,
-        "levels": [asdict(level) for level in found.levels],
+        **({} if found.value is None else {"value": found.value, "output": found.output}),
+        "levels": [{key: part for key, part in asdict(level).items() if part is not None} for level in found.levels],
         "notes": list(found.notes),
     }
 

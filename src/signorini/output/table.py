@@ -61,6 +61,9 @@ def accuracy_lines(found: AccuracyResult) -> Iterator[str]:
         f"stresses in the norm of energy {found.energy:.2%}"
     )
     asked = found.asked
+    if asked is not None and found.value is not None:
+        lacking = "not known yet" if found.output is None else f"{found.output:.2%}"
+        yield f"{asked.of}: {found.value:.6g}, estimated error {lacking}"
     if asked is not None:
         verdict = "met" if found.met else f"NOT met: {found.reason}"
         nodes = ", ".join(str(level.nodes) for level in found.levels)

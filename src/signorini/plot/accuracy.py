@@ -62,7 +62,8 @@ def draw_accuracy(data: PictureData) -> Figure:
     if levels:
         _draw_levels(panels[-1], found)
     verdict = "estimated" if found.asked is None else f"{found.asked.error:g} of the {found.asked.of} asked for"
-    entitle(figure, data.model.title, f"{data.size}; {verdict}, {found.pressure:.2%} of the pressure reached")
+    reached = f"{found.pressure:.2%} of the pressure" if found.output is None else f"{found.output:.2%}"
+    entitle(figure, data.model.title, f"{data.size}; {verdict}, {reached} reached")
     return figure
 
 
@@ -132,6 +133,9 @@ def _draw_levels(axes: Axes, found: AccuracyResult) -> None:
         errors: Array = np.array([getattr(level, what) for level in found.levels])
         if errors.any() and (what == "energy" or found.levels[-1].pairs):
             axes.loglog(nodes, errors, "o-", ms=4, color=colour, label=_WORDS[what])
+    if found.asked is not None and found.value is not None:
+        known = [(level.nodes, level.output) for level in found.levels if level.output is not None]
+        axes.loglog(*np.array(known).reshape(-1, 2).T, "s-", ms=4, color=INK, label=str(found.asked.of))
     if found.asked is not None:
         axes.axhline(found.asked.error, color=INK, lw=0.8, ls="--", label="asked for")
     label(axes, x="nodes", y="estimated relative error")

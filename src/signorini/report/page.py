@@ -144,10 +144,12 @@ def _accuracy(data: PictureData, found: AccuracyResult) -> str:
             f"{level.nodes}",
             f"{level.pairs}",
             *(f"{error:.2%}" for error in (level.pressure, level.traction, level.energy)),
+            *(() if found.value is None else ("-" if level.output is None else f"{level.output:.2%}",)),
         )
         for level in found.levels
     ]
-    head = ("nodes", "pairs that touch", "pressure", "with friction", "stresses")
+    output = () if found.value is None or found.asked is None else (str(found.asked.of),)
+    head = ("nodes", "pairs that touch", "pressure", "with friction", "stresses", *output)
     meshes = table([head, *levels], caption="Meshes that were tried, with their estimated errors") if levels else ""
     picture = _picture(draw_accuracy(data), "shares of the elements in the error of the stresses", data.units)
     return listed([said(line) for line in accuracy_lines(found)]) + meshes + picture

@@ -19,6 +19,7 @@ class MeshLevel:
     nodes, pairs : of the mesh, and pairs that touch at the end of the step where most do
     pressure, traction, energy : relative errors, see `AccuracyResult`
     seconds : of solving and of the estimate
+    value, output : of an output that was asked for, and its relative error
     """
 
     nodes: int
@@ -27,6 +28,8 @@ class MeshLevel:
     traction: float
     energy: float
     seconds: float
+    value: float | None = None
+    output: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -45,6 +48,7 @@ class AccuracyResult(Short):
     asked : what was asked for; None for an estimate alone
     reason : why it was not met; empty where it was
     notes : how the mesh was made anew: cells that were cut, shapes that boundaries follow
+    value, output : of an output that was asked for, and its relative error
     """
 
     pressure: float
@@ -55,6 +59,8 @@ class AccuracyResult(Short):
     asked: Accuracy | None = None
     reason: str = ""
     notes: tuple[str, ...] = ()
+    value: float | None = None
+    output: float | None = None
 
     @property
     def met(self) -> bool:

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""When an accuracy is met, how many cells the next mesh has, and what ends it: nodes, memory, time."""
+
+from __future__ import annotations
+
+import time
+
+from signorini.accuracy.estimate import Estimate
+from signorini.accuracy.meshes import is_linear
+from signorini.memory import available_memory, peak_memory
+from signorini.model.accuracy import Accuracy
+from signorini.model.model import Model
+
+SAFE_SHARE = 0.7
+"""Of what was asked for: what the next mesh is made for."""
+
+LEAST_GROWTH, MOST_GROWTH = 1.6, 3.0
+"""How many times the cells of a mesh the next one has: with fewer solves add up, with more cells are where no errors
+are."""
+
+SHARE_OF_ROOM, SMALLEST_GROWTH = 0.9, 1.2
+"""Of the nodes that a mesh may have: what it is made for where errors ask for more; the least growth worth a mesh."""
+
+LEVELS = 40
+"""Meshes that are tried at most; each has some 1.5 times the nodes of the one before, so that nodes end it first."""
+
+PAIRS = {2: 10, 3: 30}
+"""Pairs that have to touch, at least, in the plane and in space: with fewer the ends of a contact are known to a tenth.
+In space they are those of a circle of ten across, and of a quarter of one twice as large."""
+
+_MESHES = {"energy": 1, "pressure": 2, "traction": 2}
+"""On which each has to be known, at least; outputs on three: their errors change sign."""
+
+_FILL = {2: 1.1, 3: 1.4}
+"""Power of its nodes with which the memory of a mesh grows, in the plane and in space: its factor."""
+
+
+class Bounds:
+    """What was asked for, and what it may cost.
+
+    Parameters
+    ----------
+    request : of the user
+    dimension : of the bodies
+    """
+
+    def __init__(self, request: Accuracy, dimension: int) -> None:
+        self._request, self._dimension = request, dimension
+        self._start, self._held = time.perf_counter(), peak_memory()
+
+    def met(self, found: Estimate, levels: int) -> bool:
+        """Whether errors are small enough, on as many meshes as they need and with enough pairs."""
+        request = self._request
+        if not found.of(request.of) <= request.error:
+            return False
+        return request.of == "energy" or (levels >= self._meshes and found.pairs >= PAIRS[self._dimension])
+
+    @property
+    def _meshes(self) -> int:
+        of = self._request.of
+        return _MESHES[of] if isinstance(of, str) else 3
+
+    def growth(self, found: Estimate, model: Model) -> float:
+        """Of the number of cells, as far as errors that fall as usual ask for it.
+
+        Parameters
+        ----------
+        found, model : estimated, on its mesh
+        """
+        request = self._request
+        rate = (1.0 if is_linear(model) else 2.0) / model.dimension  # power of nodes with which errors fall
+        needed = (min(found.of(request.of) / (SAFE_SHARE * request.error), 1e6)) ** (1.0 / rate)
+        room = SHARE_OF_ROOM * request.nodes / len(model.mesh.points)
+        return min(max(needed, LEAST_GROWTH), MOST_GROWTH, room if room > SMALLEST_GROWTH else MOST_GROWTH)
+
+    def end(self, nodes: int, more: int, levels: int) -> str:
+        """Why no finer mesh is tried; empty: it is.
+
+        Parameters
+        ----------
+        nodes, more : of the last mesh and of the next one
+        levels : meshes so far
+        """
+        request, held = self._request, peak_memory()
+        seconds = time.perf_counter() - self._start
+        if more > request.nodes:
+            return f"the next mesh has {more} nodes, more than {request.nodes}"
+        if request.seconds is not None and seconds > request.seconds:
+            return f"{seconds:.1f} s have passed, more than {request.seconds:g}"
+        expected = self._held + (held - self._held) * (more / nodes) ** _FILL[self._dimension]
+        room = held + available_memory() if request.memory is None else request.memory
+        if expected > room:
+            words = f"the next mesh has {more} nodes, with which {expected / 1e9:.3g} GB of memory are expected"
+            return f"{words}, more than {room / 1e9:.3g} GB"
+        return f"{levels} meshes were tried" if levels >= LEVELS else ""

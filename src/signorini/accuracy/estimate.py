@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a history lacks on one mesh, by stresses that are recovered and by the mesh before."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from signorini.accuracy.contacts import ContactErrors, level_errors, trace_errors
+from signorini.accuracy.meshes import is_linear
+from signorini.accuracy.recovery import stress_error
+from signorini.arrays import Array
+from signorini.fem.space import make_space
+from signorini.fem.stress import DeformedBodies
+from signorini.meshing.simplices import Simplices
+from signorini.solution.history import History
+
+LINEAR = 0.6
+"""Of the differences that are seen on linear cells: what their pressures lack. Stresses recovered from cells in which
+they are constant, and a mesh of twice the size, are farther from them than they are from the truth."""
+
+HALF_AS_MUCH = 0.5
+"""Of the error of the mesh before: with more what differs from it is no more than what is lacking."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Estimate:
+    """Estimated errors of a history on one mesh.
+
+    Attributes
+    ----------
+    pressure, traction, energy : relative, of the step where each is largest
+    squares : (m,) of the energy norm of every cell, of all steps together, work
+    weights : (m,) by which cells are refined: these, or what they count for an output
+    pairs : that touch at the end of the step where most do
+    value, output : of an output that is asked for, and its relative error
+    """
+
+    pressure: float
+    traction: float
+    energy: float
+    squares: Array
+    weights: Array
+    pairs: int
+    value: float | None = None
+    output: float | None = None
+
+    def of(self, what: object) -> float:
+        """Of what a request asks for."""
+        named = {"pressure": self.pressure, "traction": self.traction, "energy": self.energy}
+        found = named.get(what, self.output) if isinstance(what, str) else self.output
+        assert found is not None
+        return found
+
+
+def estimate(history: History, before: tuple[Simplices, History] | None = None) -> Estimate:
+    """What a history lacks at the ends of its steps.
+
+    Parameters
+    ----------
+    history : solved
+    before : the simplices that it was solved on, and the history of the mesh before with its accuracy
+    """
+    model = history.model
+    space = make_space(model.mesh, kind=model.kind)
+    traced, carried, pairs = list[ContactErrors](), list[ContactErrors](), 0
+    squares, lost, norms = np.zeros(model.mesh.number_of_cells), [0.0], [0.0]
+    for k, step in enumerate(history.steps):
+        stress = stress_error(DeformedBodies.of(space, model, step.displacement, step.factors))
+        squares += stress.squares
+        lost.append(float(stress.squares.sum()))
+        norms.append(stress.norm_square)
+        traced.append(trace_errors(space, model, step.contacts, stress))
+        if before is not None:
+            carried.append(level_errors(step.contacts, _carried(before, k)))
+        pairs = max(pairs, sum(int(contact.closed.sum()) for contact in step.contacts))
+    energy = float(np.sqrt(max(lost) / max(norms))) if max(norms) > 0.0 else 0.0
+    known = None if before is None else before[1].accuracy
+    found = traced + [one.scaled(_level_share(energy, known.energy)) for one in carried if known is not None]
+    size, share = max((one.scale for one in traced), default=0.0), LINEAR if is_linear(model) else 1.0
+    return Estimate(
+        pressure=share * _ratio(max((one.pressure for one in found), default=0.0), size),
+        traction=share * _ratio(max((one.pressure + one.friction for one in found), default=0.0), size),
+        energy=energy,
+        squares=squares,
+        weights=squares,
+        pairs=pairs,
+    )
+
+
+def _carried(before: tuple[Simplices, History], step: int) -> list[tuple[Array, Array]]:
+    """Of every contact pressure and friction of the mesh before at the corners of this one."""
+    simplices, history = before
+    older = int((simplices.parents[:, 0] == simplices.parents[:, 1]).sum())
+    found = []
+    for contact in history.steps[step].contacts:
+        values = np.zeros((older, 1 + contact.normals.shape[1]))
+        values[contact.node, 0], values[contact.node, 1:] = contact.pressure, contact.shear
+        carried = simplices.carried(values)
+        found.append((carried[:, 0], carried[:, 1:]))
+    return found
+
+
+def _level_share(energy: float, before: float) -> float:
+    """Of the square of the difference from the mesh before: what this one lacks of it, where errors fall as in energy.
+
+    Parameters
+    ----------
+    energy, before : errors of the stresses on both
+    """
+    fall = energy / before if before > 0.0 else 1.0
+    return (fall / (1.0 - fall)) ** 2 if fall < HALF_AS_MUCH else 1.0
+
+
+def _ratio(square: float, scale: float) -> float:
+    """Root of a square over a scale; 1 where nothing presses."""
+    return float(np.sqrt(square / scale)) if scale > 0.0 else 1.0

@@ -1,0 +1,95 @@
+"""An accuracy of a named output: the number that was asked for is as true as it is said to be."""
+
+import json
+from dataclasses import replace
+
+import pytest
+
+import signorini as sg
+from signorini.gallery import coarse
+from signorini.model.output_words import output_of
+from tests.accuracy.test_refine import run
+
+PEAK, WIDTH = 38.1643, 2.6473
+"""Largest pressure and half-width of the paper's cylinder on a mesh of 50,000 nodes that was refined for each."""
+
+
+@pytest.mark.parametrize(("output", "true"), [("peak pressure", PEAK), (sg.halfwidth("seat", about=(0.0, 0.0)), WIDTH)])
+def test_an_output_is_as_accurate_as_asked(output, true):
+    found = sg.solve(coarse.cylinder(), accuracy=sg.Accuracy(0.01, of=output)).accuracy
+    assert found.met
+    assert len(found.levels) >= 3
+    assert found.value == found.levels[-1].value
+    assert found.levels[0].output is None
+    assert abs(found.value / true - 1.0) <= found.output <= 0.01
+
+
+@pytest.mark.slow
+def test_cells_are_refined_by_what_counts_for_the_output():
+    """The largest pressure is at the pole: half of the nodes that the pressure of the whole side needs."""
+    of = sg.pressure("seat").peak
+    peak, whole = (sg.solve(coarse.cylinder(), accuracy=sg.Accuracy(0.005, of=what)) for what in (of, "pressure"))
+    assert peak.accuracy.levels[-1].nodes < 0.5 * whole.accuracy.levels[-1].nodes
+
+
+def test_nodes_are_those_of_the_mesh_to_begin_with():
+    model = coarse.cylinder()
+    (top,) = (n for n, (x, y) in enumerate(model.mesh.points) if (x, y) == (0.0, 8.0))
+    found = sg.solve(model, accuracy=sg.Accuracy(0.05, of=sg.displacement(top, along=(0.0, 1.0)))).accuracy
+    assert found.met
+    assert found.value == pytest.approx(-0.7446, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    "output",
+    [
+        sg.pressure("a b").peak,
+        sg.pressure("c").mean(),
+        sg.pressure("c")[12],
+        sg.gap("c")[3].after(1.5),
+        sg.force("c", along=(1.0, -0.5)),
+        sg.force("c", along=(0.0, 0.0, 1.0), of="friction"),
+        sg.moment("c", about=(0.0, 1.0)),
+        sg.dissipation(),
+        sg.dissipation("c"),
+        sg.displacement(4, along=(0.0, 1e-3)),
+        sg.stress("pad", 7, "xy"),
+    ],
+)
+def test_outputs_are_read_by_the_words_that_they_print(output):
+    assert output_of(repr(output)) == output
+
+
+def test_a_deck_and_the_command_line_name_an_output(tmp_path, capsys):
+    assert run(tmp_path, "[solve]\naccuracy = 0.05\nof = 'peak pressure'") == 0
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())["accuracy"]
+    assert summary["asked"] == {"error": 0.05, "of": "peak pressure of 'arc'"}
+    assert abs(summary["value"] / PEAK - 1.0) <= summary["output"] <= 0.05
+    told = capsys.readouterr().out
+    assert "peak pressure of 'arc': 3" in told
+    assert "accuracy 0.05 of the peak pressure of 'arc' met" in told
+    assert run(tmp_path, "", "--accuracy", "0.001,of=peak pressure of 'arc',nodes=300") == 0
+    assert "NOT met: the next mesh has " in capsys.readouterr().out
+    for given, words in (("0.1,of=peek", "unknown kind of accuracy 'peek'"), ("0.1,nods=3", "did you mean 'nodes'")):
+        assert run(tmp_path, "", "--accuracy", given) == 2
+        assert words in capsys.readouterr().err
+
+
+def test_what_ends_it_is_memory_too():
+    found = sg.solve(coarse.cylinder(), accuracy=sg.Accuracy(0.001, memory=1e6)).accuracy
+    assert len(found.levels) == 1
+    assert " GB of memory are expected, more than 0.001 GB" in found.reason
+
+
+def test_outputs_that_have_no_derivative_are_named():
+    model = coarse.cylinder()
+    for wrong, words in (
+        ("peak pressure of 'sead'", "unknown contact 'sead'"),
+        (sg.displacement(1000, along=(0, 1)), "is node 1000; expected the number of a corner"),
+        (sg.pressure("seat").mean(weights=[1.0]), "weights belong to one mesh"),
+    ):
+        with pytest.raises(sg.InputError, match=words):
+            sg.solve(model, accuracy=sg.Accuracy(0.1, of=wrong))
+    worn = replace(model, steps=[sg.Step(name="one"), sg.Step(name="two", release=("axis",), hold=())])
+    with pytest.raises(sg.InputError, match="derivatives do not know"):
+        sg.solve(worn, accuracy=sg.Accuracy(0.1, of="peak pressure"))
