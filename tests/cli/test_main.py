@@ -58,7 +58,10 @@ def test_run_prints_forces_and_files(
     assert "(0, 78)" in said.out
     assert "certificate passed" in said.out
     assert "one increment: assumes" in said.out
-    assert f"contact.csv, solution.vtu, history.csv, state.npz, solution.h5, summary.json in {tmp_path}" in said.out
+    assert (
+        f"contact.csv, contact.vtu, solution.vtu, history.csv, state.npz, solution.h5, summary.json in {tmp_path}"
+        in said.out
+    )
     assert said.err == ""  # no progress where nobody watches
 
 

@@ -3,13 +3,18 @@
 
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
+import meshio
+import numpy as np
 import pytest
 
 import signorini as sg
 from signorini.cli import main
+from signorini.gallery.cylinder import zhu_cylinder
 from signorini.output import fields
+from signorini.output.vtu import write_surfaces
 
 DECK = """*NODE, NSET=ALL
 1, 0, 0
@@ -93,3 +98,26 @@ def test_stresses_are_kept_where_several_files_need_them_and_of_the_last_state(
         for step in (first, second, third, third, second):
             found.stresses(step)
         assert calls["body_stresses"] == count
+
+
+def test_contact_lines_of_the_plane_say_what_the_contact_says(tmp_path):
+    solution = sg.solve(zhu_cylinder(friction=0.4))
+    contact = solution.last.contacts[0]
+    write_surfaces(solution.model, solution.last.contacts, tmp_path / "contact.vtu")
+    found = meshio.read(tmp_path / "contact.vtu")
+    (lines,) = found.cells
+    assert (lines.type, len(lines.data)) == ("line", len(contact.node) - 1)
+    assert found.points[:, :2].tolist() == contact.points.tolist()
+    assert found.point_data["force"][:, :2].sum(axis=0) == pytest.approx([contact.tangential_force[0], 78.0])
+    length = np.linalg.norm(np.diff(found.points[lines.data], axis=1)[:, 0], axis=1)
+    way = found.point_data["arc_length"][lines.data]
+    assert np.abs(np.diff(way, axis=1)[:, 0]) == pytest.approx(length)
+    assert found.point_data["slip_amplitude"].tolist() == (0.5 * contact.slip_range).tolist()
+    assert found.point_data["dissipation_per_area"] @ contact.area == pytest.approx(contact.dissipation)
+
+
+def test_a_contact_whose_nodes_have_no_lines_is_points(tmp_path):
+    solution = sg.solve(zhu_cylinder(friction=0.4))
+    write_surfaces(solution.model, [replace(solution.last.contacts[0], nonmortar="nodes")], tmp_path / "contact.vtu")
+    (points,) = meshio.read(tmp_path / "contact.vtu").cells
+    assert (points.type, points.data.tolist()) == ("vertex", [[i] for i in range(11)])

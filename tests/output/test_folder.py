@@ -16,7 +16,7 @@ from signorini.cli import main
 from signorini.output import folder as module
 from tests.helpers.block_deck import block_deck
 
-FILES = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu", "solution.h5"}
+FILES = {"summary.json", "contact.csv", "history.csv", "state.npz", "solution.vtu", "contact.vtu", "solution.h5"}
 UNLOADED = block_deck(steps=({"scale": {"top": 1.0}}, {"scale": {"top": 0.5}}))
 
 
@@ -76,6 +76,7 @@ def test_a_shorter_series_replaces_a_longer_one_and_nothing_else(deck: Path, tmp
         "state.npz",
         "solution.h5",
         "solution.vtu",
+        "contact.vtu",
         "notes.txt",
         "solution_best.vtu",
     }
@@ -115,12 +116,12 @@ def test_a_full_disk_is_told_and_the_run_goes_on(
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     full_disk = f"cannot write results into '{out}': No space left on device; what it held before is still there"
     assert capsys.readouterr().err == f"signorini: {full_disk}; the run goes on\n"
-    before = {file.name: file.read_bytes() for file in out.iterdir()}
+    before = {file.name: file.read_bytes() for file in out.rglob("*.*")}
     room = iter([False, False])
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 1
     said = capsys.readouterr().err
     assert said == f"signorini: {full_disk}; the run goes on\nsignorini: {full_disk}\n"
-    assert {file.name: file.read_bytes() for file in out.iterdir()} == before
+    assert {file.name: file.read_bytes() for file in out.rglob("*.*")} == before
 
 
 def test_a_folder_is_for_one_run_of_one_deck(deck: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -53,7 +53,7 @@ ARCHIVE = "solution.h5"
 """The file of a result folder that holds the whole history."""
 
 SURFACES = "contact.vtu"
-"""The file of a result folder that holds the contact surfaces of a model in space."""
+"""The file of a result folder that holds the contact surfaces."""
 
 
 def open_folder(path: Path) -> Path:
@@ -307,7 +307,7 @@ def _write_tables(history: History, fields: Fields, folder: Path, *, done: Colle
         shutil.copyfile(last, folder / "solution.vtu")
     else:
         write_bodies(fields.at(history.last), folder / "solution.vtu")
-    if model.dimension == 3 and model.contacts:
+    if model.contacts:
         write_surfaces(model, history.last.contacts, folder / SURFACES)
         names.append(SURFACES)
     write_history(history, folder / "history.csv")

@@ -64,7 +64,7 @@ def write_series(
     surfaces: str = "contact",
     done: Collection[str] = (),
 ) -> list[str]:
-    """Write fields of the bodies, in space of the contact surfaces too, and the lists that ParaView opens.
+    """Write fields of the bodies and of the contact surfaces, and the lists that ParaView opens.
 
     Stresses are computed and written state by state. ``bodies.pvd`` lists ``bodies_0001.vtu``, ... for the ends of
     steps and ``fields/bodies_0001_0001.vtu``, ... for what is between; ``surfaces.pvd`` lists contact surfaces, all in
@@ -83,7 +83,7 @@ def write_series(
     Names of the files in the folder, the lists last
     """
     model = fields.model
-    touching = model.dimension == 3 and bool(model.contacts)
+    touching = bool(model.contacts)
     lists: dict[str, list[tuple[float, str]]] = {name: [] for name in (bodies, surfaces)[: 1 + touching]}
     if touching or not all(frame.last for frame in states):
         (folder / FIELDS).mkdir(exist_ok=True)
@@ -105,7 +105,7 @@ def write_series(
 
 
 def write_pvd(history: History, fields: Fields, path: Path) -> None:
-    """Write a history as a series whose list is ``path``, ``NAME.pvd``, with ``NAME_contact.pvd`` in space.
+    """Write a history as a series whose list is ``path``, ``NAME.pvd``, with ``NAME_contact.pvd`` of its contacts.
 
     The fields are those of its model; see :func:`write_series`.
 

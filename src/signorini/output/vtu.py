@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields for ParaView (``.vtu``): the bodies, and in space the contact surfaces, both on the undeformed mesh."""
+"""Fields for ParaView (``.vtu``): the bodies and the contact surfaces, both on the undeformed mesh."""
 
 from __future__ import annotations
 
@@ -8,16 +8,17 @@ from pathlib import Path
 
 import numpy as np
 
-from signorini.arrays import Array, padded
+from signorini.arrays import Array, IntArray, padded
 from signorini.meshio_fixes import complete_meshio
 from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
+from signorini.output.dataclasses_json import AnyArray
 from signorini.output.fields import BodyFields
 from signorini.plasticity.fields import PlasticFields
 from signorini.solution.results import ContactResult
-from signorini.solution.surface import contact_faces, status_codes
+from signorini.solution.surface import arc_length, contact_faces, contact_lines, status_codes
 
-_FACES = {3: "triangle", 4: "quad"}
+_SURFACE_CELLS = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
 
 
 def write_bodies(fields: BodyFields, path: Path, further: Mapping[str, Array] | None = None) -> None:
@@ -71,16 +72,19 @@ def _by_name(blocks: Sequence[PlasticFields]) -> dict[str, list[Array]]:
 
 
 def write_surfaces(model: Model, contacts: Sequence[ContactResult], path: Path) -> None:
-    """Write the nonmortar sides of all contacts of a model in space in one state.
+    """Write the nonmortar sides of all contacts of a model in one state: faces in space, lines in the plane.
 
     Point arrays: ``pressure``, ``traction`` (friction on the nonmortar body, a vector), ``slip`` (accumulated, a
-    vector), ``gap``, ``area``, ``normal``, ``status`` (0 open, 1 stick, 2 slip), ``node``, ``worn_depth`` (where any
-    side wears). Cell array: ``contact``
-    (0, 1, ... in the order of the model). Faces are those whose corners all carry pairs.
+    vector), ``gap``, ``area``, ``normal``, ``force`` (on the nonmortar body at the node, a vector), ``sliding``
+    (distance slid in the step), ``slip_amplitude`` (half the range of the slip in the last cycle),
+    ``dissipation_per_area`` (of the step), ``status`` (0 open, 1 stick, 2 slip), ``node``; in the plane ``arc_length``;
+    ``worn_depth`` where any side wears, ``damage`` where any is bonded. About an axis vectors have the hoop behind
+    radius and axis. Cell array: ``contact`` (0, 1, ... in the order of the model). Cells are those whose ends or
+    corners all carry pairs, and points where a contact has none.
 
     Parameters
     ----------
-    model : in space, with contacts
+    model : with contacts
     contacts : all of them in one state, in the order of the model
     path : of the file
     """
@@ -89,28 +93,50 @@ def write_surfaces(model: Model, contacts: Sequence[ContactResult], path: Path) 
     start = np.cumsum([0, *(len(contact.node) for contact in contacts)])
     blocks, owner = [], []
     for i, contact in enumerate(contacts):
-        for faces in contact_faces(model, contact):
-            if len(faces):
-                blocks.append((_FACES[faces.shape[1]], start[i] + faces))
-                owner.append(np.full(len(faces), i))
-    arrays = [
-        {
-            "points": contact.points,
-            "pressure": contact.pressure,
-            "traction": contact.shear,
-            "slip": contact.along_tangents(contact.slip),
-            "gap": contact.gap,
-            "area": contact.area,
-            "normal": contact.normals,
-            "status": status_codes(contact),
-            "node": model.mesh.labels[contact.node],
-        }
-        for contact in contacts
-    ]
-    for each, contact in zip(arrays, contacts, strict=True):
-        if any(other.wear is not None for other in contacts):
-            each["worn_depth"] = np.zeros(len(contact.node)) if contact.wear is None else contact.wear.depth
-    data = {name: np.concatenate([each[name] for each in arrays]) for name in arrays[0]}
+        for cells in _surface_cells(model, contact):
+            blocks.append((_SURFACE_CELLS[cells.shape[1]], start[i] + cells))
+            owner.append(np.full(len(cells), i))
+    every = [_surface_arrays(model, contact) for contact in contacts]
+    for name, values in {
+        "worn_depth": [_worn(contact) for contact in contacts],
+        "damage": [c.damage for c in contacts],
+    }.items():
+        if any(each is not None for each in values):
+            for arrays, each in zip(every, values, strict=True):
+                arrays[name] = np.zeros(len(arrays["gap"])) if each is None else each
+    data = {name: np.concatenate([arrays[name] for arrays in every]) for name in every[0]}
     grid = meshio.Mesh(data.pop("points"), blocks, point_data=data, cell_data={"contact": owner})
     with atomic_write(path) as aside:
         meshio.write(aside, grid, file_format="vtu")
+
+
+def _surface_cells(model: Model, contact: ContactResult) -> list[IntArray]:
+    """Faces, lines or points of a contact, as indices into its nodes."""
+    found = contact_faces(model, contact) if model.dimension == 3 else (contact_lines(model, contact),)
+    cells = [part for part in found if len(part)]
+    return cells or [np.arange(len(contact.node))[:, None]]
+
+
+def _surface_arrays(model: Model, contact: ContactResult) -> dict[str, AnyArray]:
+    """Arrays of one contact by name, vectors with three components."""
+    arrays: dict[str, AnyArray] = {
+        "points": padded(contact.points, 3),
+        "pressure": contact.pressure,
+        "traction": padded(contact.shear, 3),
+        "slip": padded(contact.along_tangents(contact.slip), 3),
+        "gap": contact.gap,
+        "area": contact.area,
+        "normal": padded(contact.normals, 3),
+        "force": padded(contact.forces, 3),
+        "sliding": contact.sliding,
+        "slip_amplitude": 0.5 * contact.slip_range,
+        "dissipation_per_area": contact.worn,
+        "status": status_codes(contact),
+        "node": model.mesh.labels[contact.node],
+    }
+    return arrays if model.dimension == 3 else {**arrays, "arc_length": arc_length(model, contact)}
+
+
+def _worn(contact: ContactResult) -> Array | None:
+    """(n,) Depth that the nonmortar side has lost; None where it does not wear."""
+    return None if contact.wear is None else contact.wear.depth
