@@ -88,6 +88,20 @@ def test_halves_are_a_body_that_is_cut(name):
 
 FOOT, HEAD = sg.rectangle(x=[0.0, 1.0], y=[0.0, 1.0]), sg.rectangle(x=[0.0, 1.0], y=[1.0, 2.0])
 HALVES = sg.join({"foot": FOOT, "head": HEAD})
+
+
+def bent(mesh):
+    """Its points, lifted by a parabola."""
+    x, y = mesh.points.T
+    return replace(mesh, points=np.column_stack([x, y + 0.1 * x * (1.0 - x)]))
+
+
+BENT = sg.join(
+    {
+        "foot": bent(sg.rectangle(x=[0.0, 0.5, 1.0], y=[0.0, 1.0])),
+        "head": bent(sg.rectangle(x=[0.0, 0.3, 0.6, 1.0], y=[1.0, 2.0])),
+    }
+)
 WRONG = {
     "no boundary": (HALVES, ("shank", "foot.topp", "head.bottom"), "unknown boundary 'foot.topp'; did you mean"),
     "a name taken": (HALVES, ("foot.top", "foot.top", "head.bottom"), "there is a boundary 'foot.top'; expected a new"),
@@ -95,12 +109,12 @@ WRONG = {
         HALVES,
         ("shank", "foot.top", "head.top"),
         "node 3 of 'foot.top' is 1 away from the next node of 'head.top', and these are 2 and 2 nodes; expected halves "
-        "whose nodes lie in the same places, or halves that are tied, one of which is cut beside the tie",
+        "whose nodes lie in the same places, or halves that lie in one plane",
     ),
-    "finer": (
-        sg.join({"foot": FOOT, "head": sg.rectangle(x=[0.0, 0.5, 1.0], y=[1.0, 2.0])}),
+    "finer, and bent": (
+        BENT,
         ("shank", "foot.top", "head.bottom"),
-        "these are 2 and 3 nodes; expected halves whose",
+        "these are 3 and 4 nodes; expected halves whose",
     ),
     "one half": (HALVES, ("shank", "foot.top", "foot.right"), "'foot.top' and 'foot.right' share node 4; expected"),
     "the same way": (
@@ -115,6 +129,81 @@ WRONG = {
 def test_what_are_no_halves_is_told(mesh, given, said):
     with pytest.raises(sg.InputError, match=said):
         sg.section(mesh, *given)
+
+
+def pulled(kind, family, at=([0.0, 0.5, 1.0], [0.0, 0.3, 0.6, 1.0])):
+    """A bar of two halves, meshed otherwise, that its bolt draws by 3 per area between two planes of symmetry."""
+
+    def half(x, up):
+        if kind == "3d":
+            return sg.box(x=x, y=x, z=up, cells=family)
+        return sg.rectangle(x=x, y=up, cells=family)
+
+    d = 3 if kind == "3d" else 2
+    parts = {"foot": half(at[0], [0.0, 0.5, 1.0]), "head": half(at[1], [1.0, 1.4, 2.0])}
+    area = np.pi if kind == "axisymmetric" else 1.0
+    across = [] if kind == "axisymmetric" else ["left", "front"][: d - 1]
+    return sg.Model(
+        sg.section(sg.join(parts), "shank", "foot.top", "head.bottom"),
+        kind=kind,
+        bodies=[sg.Body(name, STEEL) for name in parts],
+        supports=[
+            *(sg.Support(on, u=(*(None,) * (d - 1), 0.0)) for on in ("foot.bottom", "head.top")),
+            *(
+                sg.Support(f"{name}.{side}", u=tuple(0.0 if k == i else None for k in range(d)))
+                for name in parts
+                for i, side in enumerate(across)
+            ),
+        ],
+        bolts=[sg.Bolt("shank", force=3.0 * area)],
+    )
+
+
+@pytest.mark.parametrize(
+    ("kind", "family"),
+    [("plane stress", "quad8"), ("axisymmetric", "quad"), ("3d", "hexahedron"), ("3d", "tetra10")],
+)
+@pytest.mark.parametrize("swap", [False, True])
+def test_halves_that_do_not_match_pass_a_uniform_stress(kind, family, swap):
+    """Exactly, whichever half is the finer one: it shortens by the strain of both."""
+    given = ([0.0, 0.3, 0.6, 1.0], [0.0, 0.5, 1.0]) if swap else ([0.0, 0.5, 1.0], [0.0, 0.3, 0.6, 1.0])
+    solution = sg.solve(pulled(kind, family, given))
+    for name in ("foot", "head"):
+        assert_allclose(solution.stress(name).stress[:, 2 if kind == "3d" else 1], 3.0, rtol=1e-11)
+    bolt = solution.steps[0].bolts["shank"]
+    assert bolt.shortening == pytest.approx(2.0 * 3.0 / 200.0, rel=1e-11)
+    assert solution.steps[0].certificate.passed
+
+
+def test_halves_that_do_not_match_are_nearly_those_that_do():
+    """A jack under friction, pushed aside: coarse halves apart are between a coarse and a fine whole."""
+
+    def jack(below, above):
+        parts = {"foot": sg.rectangle(x=below, y=[0, 0.5, 1]), "head": sg.rectangle(x=above, y=[1, 1.4, 2])}
+        mesh = sg.section(sg.join(parts), "shank", "foot.top", "head.bottom")
+        return sg.solve(joint(mesh, "plane stress", ["foot", "head"], "head.top")).steps
+
+    two, three, six = (np.linspace(0.0, 1.0, n + 1) for n in (2, 3, 6))
+    apart, coarse, fine = jack(two, three), jack(two, two), jack(six, six)
+    for one, least, most in zip(apart, coarse, fine, strict=True):
+        assert least.bolts["shank"].shortening > one.bolts["shank"].shortening > most.bolts["shank"].shortening
+        assert one.bolts["shank"].shortening == pytest.approx(most.bolts["shank"].shortening, rel=0.02)
+        assert abs(one.energy_defect) < 1e-13
+
+
+def test_halves_beside_each_other_are_told():
+    parts = {"foot": sg.rectangle(x=[0.0, 0.6, 1.0], y=[0.0, 1.0]), "head": sg.rectangle(x=[0.5, 1.5], y=[1.0, 2.0])}
+    mesh = sg.section(sg.join(parts), "shank", "foot.top", "head.bottom")
+    model = sg.Model(
+        mesh,
+        bodies=[sg.Body(name, STEEL) for name in parts],
+        supports=[sg.Support("foot.bottom", u=(0.0, 0.0)), sg.Support("head.top", u=(0.0, 0.0))],
+        bolts=[sg.Bolt("shank", force=3.0)],
+    )
+    with pytest.raises(
+        sg.InputError, match=r"bolt\[0\].section: the halves of section 'shank' do not lie on each other"
+    ):
+        sg.solve(model)
 
 
 def test_what_joins_the_halves_beside_the_bolt_is_told():

@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.errors import InputError
 from signorini.meshing.cut import HALF_ABOVE, HALF_BELOW, section_normal
-from signorini.meshing.halves import section_equations
+from signorini.meshing.halves import halves_match, section_equations
 from signorini.model.conditions import Load, Support
 from signorini.model.links import Equation
 from signorini.model.model import Model
@@ -57,7 +57,14 @@ def _halves(model: Model, i: int) -> list[Equation]:
         raise error.inside("bolt", i, "section") from error
     _refuse_contact_between_halves(model, section)
     normal = np.pad(normal, (0, model.components - model.dimension))
-    return section_equations(model.mesh, section, section, normal, name=model.bolts[i].label)
+    if halves_match(model.mesh, section):
+        return section_equations(model.mesh, section, section, normal, name=model.bolts[i].label)
+    from signorini.engine.halves_apart import mortar_equations
+
+    try:
+        return mortar_equations(model, section, normal, name=model.bolts[i].label)
+    except InputError as error:
+        raise error.inside("bolt", i, "section") from error
 
 
 def _refuse_contact_between_halves(model: Model, section: str) -> None:

@@ -27,13 +27,13 @@ def section(mesh: Mesh, name: str, below: str, above: str, *, node: bool = True)
     ----------
     mesh : with both halves, which share no node
     name : of the section
-    below, above : outer boundaries of the halves, whose nodes lie in the same places
+    below, above : outer boundaries of the halves, whose nodes lie in the same places, or which lie in one plane
     node : whether to make the node apart
 
     Raises
     ------
     InputError
-        If nodes of the halves do not lie in the same places, or these look the same way.
+        If nodes of the halves do not lie in the same places, nor all in one plane, or these look the same way.
 
     Examples
     --------
@@ -58,7 +58,11 @@ def section(mesh: Mesh, name: str, below: str, above: str, *, node: bool = True)
             "a body that is cut",
             where=where,
         )
-    _opposite(mesh, low, high, (below, above), where)
+    try:
+        _opposite(mesh, low, high, (below, above), where)
+    except InputError:
+        if not _in_one_plane(mesh.points[np.concatenate([low, high])]):
+            raise
     one, other = (np.concatenate([facet_areas(mesh, part) for part in own]).sum(axis=0) for own in both)
     if one @ other >= 0.0:
         raise InputError(
@@ -72,6 +76,23 @@ def section(mesh: Mesh, name: str, below: str, above: str, *, node: bool = True)
         nodes={**mesh.nodes, **({name: np.array([len(mesh.points)])} if node else {})},
         node_numbers=np.concatenate([mesh.labels, mesh.labels.max() + 1 + np.arange(len(middle))]),
     )
+
+
+def halves_match(mesh: Mesh, section: str) -> bool:
+    """Whether the nodes of both halves of a section lie in the same places."""
+    low, high = (mesh.nodes_of(section + half) for half in (HALF_BELOW, HALF_ABOVE))
+    try:
+        _opposite(mesh, low, high, (section, section), ())
+    except InputError:
+        return False
+    return True
+
+
+def _in_one_plane(points: Array) -> bool:
+    """Whether points lie in a plane, in the plane on a line."""
+    arms = points - points.mean(axis=0)
+    normal = np.linalg.svd(arms, full_matrices=False)[2][-1]
+    return bool(np.abs(arms @ normal).max() <= _MATCH_TOL * float(np.ptp(points, axis=0).max()))
 
 
 def facets_opposite(mesh: Mesh, name: str) -> tuple[IntArray, ...]:
@@ -127,7 +148,7 @@ def _opposite(mesh: Mesh, low: IntArray, high: IntArray, names: tuple[str, str],
         raise InputError(
             f"node {mesh.labels[low[worst]]} of '{names[0]}' is {distance[worst]:.4g} away from the next node of "
             f"'{names[1]}', and these are {len(low)} and {len(high)} nodes; expected halves whose nodes lie in the "
-            "same places, or halves that are tied, one of which is cut beside the tie",
+            "same places, or halves that lie in one plane",
             where=where,
         )
     return np.asarray(partner)
