@@ -31,6 +31,7 @@ BASE = {
     "arrays",
     "checks",
     "clock",
+    "cores",
     "doors",
     "meshio_fixes",
     "hdf5",

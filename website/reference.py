@@ -32,7 +32,9 @@ PAGES = {
         *("Mesh", "rectangle", "annulus", "half_disk", "quarter_disk", "box", "extruded", "join", "cut", "read_mesh"),
         *("mesh_profile", "mesh_surface", "read_profile", "read_surface", "read_values"),
     ),
-    "Solving": ("check", "solve", "prepare", "PreparedModel", "read", "load", "natural_modes", "joint_damping"),
+    "Solving": (
+        *("check", "solve", "threads", "prepare", "PreparedModel", "read", "load", "natural_modes", "joint_damping"),
+    ),
     "Results": ("Solution", "StepResult", "ContactResult", "Certificate"),
     "Errors": ("SignoriniError", "InputError", "SolveFailed", "Interrupted"),
     "Linear complementarity": ("lcp",),

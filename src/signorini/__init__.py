@@ -15,6 +15,7 @@ from signorini._version import __version__
 if TYPE_CHECKING:
     from signorini import fatigue, lcp
     from signorini.api import load, solve
+    from signorini.cores import threads
     from signorini.deck import read
     from signorini.derivative.wrappers import jax, torch
     from signorini.engine import paper
@@ -145,12 +146,14 @@ __all__ = [
     "section",
     "solve",
     "stress",
+    "threads",
     "torch",
     "traction",
 ]
 
 _HOMES = {
     "signorini.api": ("load", "solve"),
+    "signorini.cores": ("threads",),
     "signorini.deck": ("read",),
     "signorini.model.outputs": (
         "displacement",

@@ -6,8 +6,10 @@ import threading
 import numpy as np
 import pytest
 
+from signorini import cores
+from signorini.cli import main
 from signorini.errors import InputError
-from signorini.linalg import NotPositiveDefinite, factorise, plan, shared_fronts, threads
+from signorini.linalg import NotPositiveDefinite, factorise, plan, shared_fronts
 from signorini.linalg.crew import Crew
 from tests.helpers.lattices import dense_schur, lattice, together
 
@@ -34,7 +36,7 @@ def test_every_number_of_threads_gives_the_same_bits(name):
     load = np.random.default_rng(1).standard_normal(p.K.shape[0])
     found = []
     for number in (1, 2, 3, 5, 16):
-        with threads.threads(number):
+        with cores.threads(number):
             factor = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal")
         found.append((factor.factor, factor.schur(), factor.reduce(load).load))
     parts = factor.plan.parts
@@ -65,7 +67,7 @@ def test_an_indefinite_matrix_names_the_same_unknown(number, place):
     K = p.K.copy().tolil()
     wrong = inside[int(place * len(inside))]
     K[wrong, wrong] = -1.0
-    with threads.threads(number), pytest.raises(NotPositiveDefinite) as error:
+    with cores.threads(number), pytest.raises(NotPositiveDefinite) as error:
         factorise(K.tocsr(), p.interface, nodes=p.nodes, backend="multifrontal")
     assert error.value.dof == wrong
     assert threading.active_count() == 1
@@ -83,7 +85,7 @@ def test_what_runs_ahead_stays_near():
 
 @pytest.mark.parametrize("number", [0, -1, 1.5, True, "2"])
 def test_wrong_numbers_of_threads_are_named(number):
-    with pytest.raises(InputError, match="expected a whole number, at least 1"), threads.threads(number):
+    with pytest.raises(InputError, match="expected a whole number, at least 1"), cores.threads(number):
         pass
 
 
@@ -92,4 +94,11 @@ def test_wrong_numbers_of_threads_are_named(number):
 )
 def test_the_environment_says_how_many(said, number, monkeypatch):
     monkeypatch.setenv("OMP_NUM_THREADS", said)
-    assert threads.number_of_threads() == (number or threads.physical_cores())
+    assert cores.number_of_threads() == (number or cores.physical_cores())
+
+
+@pytest.mark.parametrize(("given", "code"), [("2", 0), ("0", 2)])
+def test_the_command_line_takes_a_number(given, code, tmp_path, capsys):
+    asked = ["run", "examples/block_drag.toml", "-o", str(tmp_path / "out"), "--quiet", "--threads", given]
+    assert main(asked) == code
+    assert ("threads = 0; expected a whole number, at least 1" in capsys.readouterr().err) == (code == 2)

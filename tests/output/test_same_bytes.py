@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 import pytest
 
+from signorini import cores
 from signorini.cli import main
 from signorini.linalg import plan, shared_fronts, threads
 from signorini.output.dataclasses_json import unsealed
@@ -106,7 +107,7 @@ def test_a_run_gives_the_same_bytes_whatever_the_threads(
     found = []
     for number, folder in ((1, "one"), (2, "two"), (1, "again")):
         use(number)
-        with threads.threads(number):
+        with cores.threads(number):
             code = main(["run", str(path), "-o", str(tmp_path / folder / "out"), "--quiet", "--backend", backend])
         assert code == 0
         found.append(dict(numbers(tmp_path / folder / "out")))

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import signorini
 from signorini._version import __version__
+from signorini.cores import number_of_threads, physical_cores
 from signorini.errors import InputError
 from signorini.linalg.multifrontal import compiled
 from signorini.memory import available_memory
@@ -80,10 +81,9 @@ def doctor(options: argparse.Namespace) -> int:
 def _machine() -> Iterator[str]:
     """Versions, cores, memory, and whether the first solve still has to compile."""
     threads = "".join(f", {name}={os.environ[name]}" for name in _THREADS if name in os.environ)
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     yield f"signorini {__version__} in {Path(signorini.__file__).parent}"
     yield f"Python {platform.python_version()} on {platform.system()} {platform.machine()}"
-    yield f"{cores} of {os.cpu_count()} cores{threads}"
+    yield f"{physical_cores()} of {os.cpu_count()} cores{threads}; large models share {number_of_threads()} threads"
     yield f"{available_memory() / 1e9:.3g} GB of memory are free"
     yield "loops are compiled" if compiled() else "loops are not compiled: the first solve does that, once"
 

@@ -14,6 +14,7 @@ from contextlib import contextmanager
 
 from signorini.cli.exit_codes import DONE, FAILED, INTERRUPTED, NO_SOLUTION, WRONG_INPUT
 from signorini.cli.parser import make_parser
+from signorini.cores import threads
 from signorini.errors import InputError, SolveFailed
 
 _MEMORY_ADVICE = "expected a coarser mesh, --backend iterative, or more memory"
@@ -42,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     options = make_parser().parse_args(arguments)
     try:
-        with _stoppable():
+        with _stoppable(), threads(getattr(options, "threads", None)):
             (home,) = (module for module, commands in _COMMANDS.items() if options.command in commands)
             code = int(getattr(importlib.import_module(home), options.command)(options))
         sys.stdout.flush()

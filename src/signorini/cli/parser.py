@@ -87,6 +87,11 @@ def _deck_options() -> argparse.ArgumentParser:
     return keywords
 
 
+def _add_threads(command: argparse.ArgumentParser) -> None:
+    words = "that large models share (default: OMP_NUM_THREADS, or the physical cores); results do not depend on it"
+    command.add_argument("--threads", type=int, metavar="N", help=words)
+
+
 def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
     run = commands.add_parser("run", parents=parents, help="solve a deck and write the results")
     run.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
@@ -107,6 +112,7 @@ def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
         "pressure,nodes=50000,memory=4e9,seconds=60': of what, and within which bounds; 'estimate': as it is",
     )
     run.add_argument("--backend", default="auto", metavar="NAME", help="of the factorisation (default: auto)")
+    _add_threads(run)
 
 
 def _add_sensitivities(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
@@ -114,6 +120,7 @@ def _add_sensitivities(commands: Any, parents: Sequence[argparse.ArgumentParser]
     by_all = commands.add_parser("sensitivities", parents=parents, help=words)
     by_all.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
     by_all.add_argument("--json", action="store_true", help="print plain data for other programs")
+    _add_threads(by_all)
 
 
 def _add_modes(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
@@ -133,6 +140,7 @@ def _add_modes(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> Non
     modes.add_argument("-o", dest="folder", metavar="DIR", help="result folder (default: out/ and the deck's name)")
     modes.add_argument("--log", metavar="FILE", help="write what is done, with its time, into a file")
     modes.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    _add_threads(modes)
 
 
 def _add_fatigue(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
@@ -184,3 +192,4 @@ def _add_suites(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> No
     bench.add_argument("--dofs", type=int, metavar="N", help="size of the problems")
     bench.add_argument("--sample", type=int, metavar="N", help="of the hard set so many problems, spread over it")
     bench.add_argument("--json", metavar="FILE", help="write the table as JSON")
+    _add_threads(bench)

@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from signorini.arrays import Array, Int32Array
+from signorini.cores import number_of_threads
 from signorini.linalg import _front_solves, _fronts
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination
@@ -28,7 +29,7 @@ from signorini.linalg.plan import Plan, Plans, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.shared_fronts import factorise_parts
 from signorini.linalg.system import System, as_columns, like
-from signorini.linalg.threads import number_of_threads, one_thread
+from signorini.linalg.threads import one_thread
 
 
 def compiled() -> bool:
