@@ -98,6 +98,15 @@ def stacks(fronts: Fronts, n: int, size: tuple[int, int]) -> Stacks:
     return Stacks(left, np.zeros(2, np.int64), waiting, np.zeros(2, np.int64), *room, scratch())
 
 
+def factorise_whole(tree: Tree, size: tuple[int, int]) -> int:
+    """Factorise all fronts on stacks of a size; give -1, or the place in the order where a pivot is not positive."""
+    number = len(tree.fronts.parent)
+    failed = factorise_fronts(tree, 0, number, stacks(tree.fronts, len(tree.elimination.order), size), False)
+    if failed < 0:
+        add_interface(tree.K, tree.elimination, tree.slot, tree.made.condensed)
+    return failed
+
+
 @njit(cache=True, nogil=True)
 def factorise_fronts(tree: Tree, begin: int, end: int, stacks: Stacks, alone: bool) -> int:
     """Factorise fronts begin to end; give -1, or the place in the order where a pivot is not positive.

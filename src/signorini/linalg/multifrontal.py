@@ -101,8 +101,12 @@ def factorise(system: System, plans: Plans | None = None) -> MultifrontalFactori
     slots[place[system.interface] - inside] = np.arange(system.m, dtype=np.int32)
     made = _fronts.Factors(np.empty(plan.fronts.panel[-1]), np.zeros((system.m, system.m)), np.empty(inside))
     tree = _fronts.Tree(plan.fronts, system.rows, Elimination(plan.order, place), slots, made)
-    with one_thread(), Crew(number_of_threads() if len(plan.parts) > 1 else 1) as crew:
-        failed = factorise_parts(tree, plan, crew)
+    with one_thread():
+        if len(plan.parts) > 1:
+            with Crew(number_of_threads()) as crew:
+                failed = factorise_parts(tree, plan, crew)
+        else:
+            failed = _fronts.factorise_whole(tree, plan.stacks)
     if failed >= 0:
         raise NotPositiveDefinite(int(plan.order[failed]))
     made.condensed.flags.writeable = False
