@@ -23,6 +23,7 @@ from signorini.output.table import align
 EXTRAS = {
     "gmsh": "geometries as meshes: *.geo, *.step, *.brep",
     "mkl": "the back end 'pardiso'",
+    "pandas": "results as data frames",
     "view": "signorini plot --what view, solution.view",
     "jax": "derivatives as functions of JAX",
     "torch": "derivatives as functions of PyTorch",
