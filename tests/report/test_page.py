@@ -13,7 +13,10 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
+from signorini.plot.picture_data import PictureData
+from signorini.plot.style import STATUS_INK
 from signorini.report.charts import ChartData, Line, chart
+from signorini.report.contact_map import contact_maps
 from signorini.report.page import report
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -144,6 +147,19 @@ window.addEventListener("load", () => setTimeout(() => {
       found.hidden = [...figure.querySelectorAll(".group")].map((group) => getComputedStyle(group).display === "none");
     }
   }
+  const map = document.querySelector(".map");
+  if (map) {
+    const fills = () => [...map.querySelectorAll(".faces path")].map((path) => path.getAttribute("fill"));
+    const what = map.querySelector("select"), pressed = fills();
+    map.querySelector("svg").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", cancelable: true }));
+    found.node = map.querySelector("output").textContent;
+    what.value = 3; what.dispatchEvent(new Event("change"));
+    found.fills = [pressed, fills()]; found.states = map.querySelector(".legend").textContent;
+  }
+  const table = [...document.querySelectorAll("main table")].find((one) => one.textContent.includes("penetration"));
+  const head = table.querySelectorAll("th button")[0];
+  head.click(); head.click();
+  found.sorted = [...table.tBodies[0].rows].map((row) => row.cells[0].textContent);
   const canvas = document.querySelector("canvas");
   if (canvas) {
     const seen = () => { const gl = canvas.getContext("webgl2"), got = new Uint8Array(4 * canvas.width * canvas.height);
@@ -188,7 +204,44 @@ def test_bodies_in_space_turn_in_a_browser(solid, tmp_path):
     assert console == []
     assert found["wide"]
     assert 0.1 < found["painted"] < 0.9
+    pressed, states = found["fills"]
+    assert len(pressed) == len(states) == 2
+    assert set(pressed) & set(states) == set()
+    assert set(states) <= set(STATUS_INK.values())
+    assert re.match(r"\([-\d., ]+\):  pressure [\d.]+;  friction [\d.]+;  slip [\d.e-]+;  (slip|stick)$", found["node"])
+    assert found["states"] in ("stick", "slip", "stickslip")
+    assert found["sorted"] == ["tension", "penetration", "equilibrium", "cone", "complementarity"]
     assert found["turned"]
+
+
+def test_the_map_of_a_contact_holds_its_numbers_at_every_step():
+    """Unrolled and flat contacts alike: places of the chart, values of the nodes."""
+    grid = np.array([0.0, 1.0, 2.0])
+    model = sg.Model(
+        sg.box(x=grid, y=grid, z=[0, 1]),
+        bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.3))],
+        supports=[sg.Support("top", u=(0.01, 0, -0.02), name="hand")],
+        contacts=[sg.Contact("bottom", sg.Plane(point=(0, 0, 0), normal=(0, 0, 1)), friction=0.3, name="</script>")],
+        steps=[sg.Step(name="half", scale={"hand": 0.5}), sg.Step(name="whole", scale={"hand": 1})],
+        units="mm, N, MPa",
+    )
+    solution = sg.solve(model)
+    (text,) = contact_maps(PictureData(solution))
+    assert text.count("</script>") == 1
+    assert text.count("<path fill=") == 4
+    found = json.loads(re.search(r'<script type="application/json">(.*?)</script>', text)[1])
+    assert found["names"] == ["pressure, MPa", "friction, MPa", "slip, mm"]
+    assert [step["name"] for step in found["steps"]] == ["end of step 1, half", "end of step 2, whole"]
+    contact = solution.last.contacts[0]
+    at = [found["at"].index(f"({', '.join(f'{x:.6g}' for x in point)})") for point in contact.points.tolist()]
+    given = (contact.pressure, np.linalg.norm(contact.traction, axis=1), contact.slipped)
+    for values, own in zip(found["steps"][1]["values"], given, strict=True):
+        np.testing.assert_allclose(np.array(values)[at], own, rtol=1e-4)
+    np.testing.assert_allclose(found["tops"][0], contact.pressure.max())
+    x, y = np.array(found["x"])[at], np.array(found["y"])[at]
+    scale = np.ptp(x) / np.ptp(contact.points[:, 0])
+    np.testing.assert_allclose(x - x[0], scale * (contact.points[:, 0] - contact.points[0, 0]), atol=0.2)
+    np.testing.assert_allclose(y - y[0], -scale * (contact.points[:, 1] - contact.points[0, 1]), atol=0.2)
 
 
 def test_a_large_skin_is_left_out_of_the_page(solid, monkeypatch):
@@ -203,4 +256,4 @@ def test_a_large_skin_is_left_out_of_the_page(solid, monkeypatch):
 def test_a_history_that_goes_on_has_a_report():
     first = sg.solve(two_steps(steps=[sg.Step(name="rub", scale={"hand": 1})]))
     model = replace(first.model, steps=[sg.Step(name="back", scale={"hand": 0.5})])
-    assert "Step 1, back" in report(sg.solve(model, start=first))
+    assert ">1 back<" in report(sg.solve(model, start=first))

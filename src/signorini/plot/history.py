@@ -164,7 +164,9 @@ def _resultants(axes: Axes, forces: ContactForces, data: PictureData) -> None:
         handles += beside.plot(forces.load, forces.dissipation, "-.", color=INK, lw=1.2)
         labels.append("dissipation since the beginning")
         label(beside, y="dissipated, work")
-        beside.set_ylim(0.0, 1.3 * forces.dissipation.max())
+        low, high = axes.get_ylim()
+        top = 1.3 * forces.dissipation.max()
+        beside.set_ylim(low / high * top, top)  # one zero for both
         beside.spines["top"].set_visible(False)
         beside.spines["right"].set_color(INK)
         beside.tick_params(colors=INK, labelsize=9)

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 _MAX_ARROWS = 400  # of friction: more hide each other
 _LEGEND_DISTANCE = 4.5  # font sizes from the axes to the legend: the label is between
+_PANEL_WIDTH, _PANEL_HEIGHTS = 4.0, (1.2, 3.6)  # inches of a map: its width, the least and the most height
+_ROW_ROOM = 1.1  # inches of a row: for the names of axes and the legend
 _PATCH_MARGIN = 0.35  # of the size of the closed patch: around it
 
 
@@ -39,6 +41,7 @@ class Patch:
     faces : (m, 4) indices of them, around the faces; a triangle has its last one twice
     pressure : (n,) force per area
     shear : (n, 3) friction on the nonmortar body, force per area
+    slip : (n,) size of what has accumulated, length
     status : (n,) see `status_words`
     """
 
@@ -47,6 +50,7 @@ class Patch:
     faces: IntArray
     pressure: Array
     shear: Array
+    slip: Array
     status: NDArray[np.str_]
 
     @cached_property
@@ -76,6 +80,7 @@ def patch_of(model: Model, contact: ContactResult) -> Patch:
         faces=index.reshape(-1, 4),
         pressure=contact.pressure[own],
         shear=contact.shear[own],
+        slip=contact.slipped[own],
         status=status_words(contact)[own],
     )
 
@@ -92,8 +97,11 @@ def draw_patches(patches: Sequence[Patch], title: str, when: str, look: Look) ->
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(11.0, 0.7 + 4.6 * max(len(patches), 1)), layout="constrained")
-    panels = figure.subplots(max(len(patches), 1), 2, squeeze=False)
+    corners = [_corners(patch, look) for patch in patches]
+    rows = [float(np.clip(_PANEL_WIDTH * (high - low)[1] / (high - low)[0], *_PANEL_HEIGHTS)) for low, high in corners]
+    rows = [height + _ROW_ROOM for height in rows] or [4.6]
+    figure = Figure(figsize=(11.0, 0.7 + sum(rows)), layout="constrained")
+    panels = figure.subplots(len(rows), 2, squeeze=False, height_ratios=rows)
     for (left, right), patch in zip(panels, patches, strict=False):
         label(left, title=f"{patch.contact}, {when}")
         _pressure(figure, left, patch, look)
@@ -158,14 +166,14 @@ def _status(axes: Axes, patch: Patch) -> None:
 
 def _marker(patch: Patch) -> float:
     """Size of a dot, points squared: about the distance between nodes."""
-    low, high = _window(patch)
+    low, high = window_of(patch)
     inside = (patch.chart.at >= low) & (patch.chart.at <= high)
     count = max(int(inside.all(axis=1).sum()), 1)
     narrow = (high - low).min() / max((high - low).max(), 1e-300)
     return float(np.clip(2.5e4 * max(narrow, 0.1) / count, 4.0, 300.0))
 
 
-def _window(patch: Patch) -> tuple[Array, Array]:
+def window_of(patch: Patch) -> tuple[Array, Array]:
     """Corners of the part to show: the closed nodes and something around them, at most everything."""
     points = patch.chart.at
     closed = points[patch.status[patch.chart.node] != OPEN]
@@ -176,14 +184,18 @@ def _window(patch: Patch) -> tuple[Array, Array]:
     return np.maximum(low, closed.min(axis=0) - margin), np.minimum(high, closed.max(axis=0) + margin)
 
 
-def _frame(axes: Axes, patch: Patch, look: Look) -> None:
+def _corners(patch: Patch, look: Look) -> tuple[Array, Array]:
+    """Lower left and upper right corner of what is shown."""
     if corners := look.corners("right up"):
         low, high = np.array(corners).T
-    else:
-        low, high = _window(patch)
-        edge = 0.06 * (high - low).max()
-        low, high = low - edge, high + edge
-    frame(axes, low, high)
+        return low, high
+    low, high = window_of(patch)
+    edge = 0.06 * (high - low).max()
+    return low - edge, high + edge
+
+
+def _frame(axes: Axes, patch: Patch, look: Look) -> None:
+    frame(axes, *_corners(patch, look))
     for side in axes.spines.values():
         side.set_visible(False)
     axes.tick_params(colors=INK, labelsize=9)

@@ -14,8 +14,8 @@ from signorini.arrays import Array
 from signorini.plot.style import round_number
 from signorini.report.markup import said
 
-_WIDTH, _HEIGHT = 640, 330  # of a chart, in its own units
-_LEFT, _RIGHT, _TOP, _BOTTOM = 78, 14, 12, 52  # margins for numbers and names of axes
+WIDTH, HEIGHT = 640, 330  # of a chart, in its own units
+LEFT, RIGHT, TOP, BOTTOM = 78, 14, 12, 52  # margins for numbers and names of axes
 _MOST_POINTS = 3000  # of one line: more cannot be seen
 _TICKS = 6  # of an axis, at most about
 
@@ -58,13 +58,13 @@ class ChartData:
 def chart(data: ChartData) -> str:
     """HTML of a chart: its drawing, legend, numbers for the script, and a slider where there are several groups."""
     lines = [line for group in data.groups.values() for line in group]
-    across, up = _axis([line.x for line in lines], zero=False), _axis([line.y for line in lines], zero=True)
+    across, up = axis_of([line.x for line in lines], zero=False), axis_of([line.y for line in lines], zero=True)
     last = len(data.groups) - 1
     groups = "".join(
         f'<g class="group"{" hidden" * (number < last)}>{"".join(_drawn(line, across, up) for line in group)}</g>'
         for number, group in enumerate(data.groups.values())
     )
-    box = f"0 0 {_WIDTH} {_HEIGHT}"
+    box = f"0 0 {WIDTH} {HEIGHT}"
     words = f"{data.title}: {data.y} over {data.x}"
     slider = ""
     if last:
@@ -78,14 +78,14 @@ def chart(data: ChartData) -> str:
     return (
         f'<figure class="chart"><figcaption>{said(data.title)}{slider}</figcaption>'
         f'<svg viewBox="{box}" role="img" tabindex="0" aria-label="{said(words)}">'
-        f'{_frame(across, up, data)}{groups}<path class="cursor" d=""/></svg>'
+        f'{drawn_axes(across, up, (data.x, data.y))}{groups}<path class="cursor" d=""/></svg>'
         f'<div class="legend">{legend}</div><output aria-live="polite"></output>'
         f'<script type="application/json">{_data(data, across)}</script></figure>'
     )
 
 
 @dataclass(frozen=True)
-class _Axis:
+class Axis:
     """From ``low`` to ``high``, with a mark at every ``step``."""
 
     low: float
@@ -94,11 +94,13 @@ class _Axis:
 
     @property
     def marks(self) -> list[float]:
+        """Where marks are."""
         first, last = math.ceil(self.low / self.step - 1e-9), math.floor(self.high / self.step + 1e-9)
         return [self.step * number for number in range(first, last + 1)]
 
 
-def _axis(values: Sequence[Array], *, zero: bool) -> _Axis:
+def axis_of(values: Sequence[Array], *, zero: bool) -> Axis:
+    """An axis that holds all values, each (n,), and zero with some room if that is to be seen."""
     every = np.concatenate([np.zeros(int(zero)), *(part[np.isfinite(part)] for part in values)])
     low, high = (float(every.min()), float(every.max())) if len(every) else (0.0, 1.0)
     wide = high - low
@@ -106,21 +108,28 @@ def _axis(values: Sequence[Array], *, zero: bool) -> _Axis:
         wide = abs(high) or 1.0
         low, high = low - 0.5 * wide, high + 0.5 * wide
     room = 0.05 * wide if zero else 0.0
-    return _Axis(low - room * (low < 0.0), high + room * (high > 0.0), round_number(2.0 * wide / _TICKS))
+    return Axis(low - room * (low < 0.0), high + room * (high > 0.0), round_number(2.0 * wide / _TICKS))
 
 
-def _places(line: Line, across: _Axis, up: _Axis) -> tuple[Array, Array]:
-    """Coordinates of the drawing."""
-    stride = -(-len(line.x) // _MOST_POINTS)
-    x, y = line.x[::stride], line.y[::stride]
-    right = _LEFT + (x - across.low) / (across.high - across.low) * (_WIDTH - _LEFT - _RIGHT)
-    down = _HEIGHT - _BOTTOM - (y - up.low) / (up.high - up.low) * (_HEIGHT - _TOP - _BOTTOM)
+def places(across: Axis, up: Axis, x: Array, y: Array, height: float = HEIGHT) -> tuple[Array, Array]:
+    """Coordinates of a drawing of values x and y (n,).
+
+    Parameters
+    ----------
+    across, up : its axes
+    x, y : (n,)
+    height : of the drawing
+    """
+    right = LEFT + (x - across.low) / (across.high - across.low) * (WIDTH - LEFT - RIGHT)
+    down = height - BOTTOM - (y - up.low) / (up.high - up.low) * (height - TOP - BOTTOM)
     return right, down
 
 
-def _drawn(line: Line, across: _Axis, up: _Axis) -> str:
+def _drawn(line: Line, across: Axis, up: Axis) -> str:
     way, pen = [], "M"
-    for x, y in zip(*(part.tolist() for part in _places(line, across, up)), strict=True):
+    stride = -(-len(line.x) // _MOST_POINTS)
+    found = places(across, up, line.x[::stride], line.y[::stride])
+    for x, y in zip(*(part.tolist() for part in found), strict=True):
         if math.isfinite(x) and math.isfinite(y):
             way.append(f"{pen}{x:.1f} {y:.1f}")
             pen = "L"
@@ -129,32 +138,39 @@ def _drawn(line: Line, across: _Axis, up: _Axis) -> str:
     return f'<path class="line c{line.colour}{" dashed" * line.dashed}" d="{"".join(way)}"/>'
 
 
-def _frame(across: _Axis, up: _Axis, data: ChartData) -> str:
-    """Axes, marks and words."""
-    floor, wall = _HEIGHT - _BOTTOM, _WIDTH - _RIGHT
+def drawn_axes(across: Axis, up: Axis, names: tuple[str, str], height: float = HEIGHT) -> str:
+    """Axes, marks and words of a drawing.
+
+    Parameters
+    ----------
+    across, up : the axes
+    names : what they are
+    height : of the drawing
+    """
+    floor, wall = height - BOTTOM, WIDTH - RIGHT
     marks = []
     for value in across.marks:
-        x = _LEFT + (value - across.low) / (across.high - across.low) * (wall - _LEFT)
-        marks.append(f'<path class="grid" d="M{x:.1f} {_TOP}V{floor}"/>')
+        x = LEFT + (value - across.low) / (across.high - across.low) * (wall - LEFT)
+        marks.append(f'<path class="grid" d="M{x:.1f} {TOP}V{floor}"/>')
         marks.append(f'<text x="{x:.1f}" y="{floor + 17}" text-anchor="middle">{_number(value, across.step)}</text>')
     for value in up.marks:
-        y = floor - (value - up.low) / (up.high - up.low) * (floor - _TOP)
+        y = floor - (value - up.low) / (up.high - up.low) * (floor - TOP)
         kind = "zero" if abs(value) < 1e-9 * up.step else "grid"
-        marks.append(f'<path class="{kind}" d="M{_LEFT} {y:.1f}H{wall}"/>')
-        marks.append(f'<text x="{_LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{_number(value, up.step)}</text>')
-    middle = 0.5 * (_TOP + floor)
-    names = (
-        f'<text x="{0.5 * (_LEFT + wall)}" y="{_HEIGHT - 12}" text-anchor="middle">{said(data.x)}</text>'
-        f'<text transform="translate(14 {middle}) rotate(-90)" text-anchor="middle">{said(data.y)}</text>'
+        marks.append(f'<path class="{kind}" d="M{LEFT} {y:.1f}H{wall}"/>')
+        marks.append(f'<text x="{LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{_number(value, up.step)}</text>')
+    middle = 0.5 * (TOP + floor)
+    words = (
+        f'<text x="{0.5 * (LEFT + wall)}" y="{height - 12}" text-anchor="middle">{said(names[0])}</text>'
+        f'<text transform="translate(14 {middle}) rotate(-90)" text-anchor="middle">{said(names[1])}</text>'
     )
-    return "".join(marks) + names
+    return "".join(marks) + words
 
 
 def _number(value: float, step: float) -> str:
     return f"{0.0 if abs(value) < 1e-9 * step else value:.6g}"
 
 
-def _data(data: ChartData, across: _Axis) -> str:
+def _data(data: ChartData, across: Axis) -> str:
     """Numbers for the script; a "<" in a name ends no script."""
     groups = [
         {
@@ -171,8 +187,8 @@ def _data(data: ChartData, across: _Axis) -> str:
         }
         for name, group in data.groups.items()
     ]
-    frame = {"low": across.low, "high": across.high, "left": _LEFT, "right": _WIDTH - _RIGHT}
-    box = {"top": _TOP, "bottom": _HEIGHT - _BOTTOM}
+    frame = {"low": across.low, "high": across.high, "left": LEFT, "right": WIDTH - RIGHT}
+    box = {"top": TOP, "bottom": HEIGHT - BOTTOM}
     text = json.dumps({"x": data.x, "groups": groups} | frame | box, separators=(",", ":"), allow_nan=False)
     return text.replace("<", "\\u003c")
 

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.plot.curve import Curve, closed_range
 from signorini.plot.history import contact_forces, friction_direction
 from signorini.plot.picture_data import PictureData
 from signorini.plot.style import named
@@ -25,8 +27,9 @@ def profiles(data: PictureData) -> Iterator[ChartData]:
     steps = {number: data.curves(number) for number in numbers}
     for i, contact in enumerate(data.model.contacts):
         groups = {}
+        ranges = np.array([closed_range(curves[i]) for curves in steps.values()])
         for number, curves in steps.items():
-            curve = curves[i]
+            curve = _within(curves[i], ranges[:, 0].min(), ranges[:, 1].max())
             lines = [Line(name="pressure", x=curve.s, y=curve.pressure, colour=0)]
             if curve.friction > 0:
                 lines.append(Line(name="friction", x=curve.s, y=curve.traction, colour=1))
@@ -46,6 +49,19 @@ def profiles(data: PictureData) -> Iterator[ChartData]:
             y=f"pressure and friction, {data.units.pressure}",
             groups=groups,
         )
+
+
+def _within(curve: Curve, low: float, high: float) -> Curve:
+    """The part of a curve that is worth showing."""
+    own = (curve.s >= low) & (curve.s <= high)
+    return replace(
+        curve,
+        s=curve.s[own],
+        pressure=curve.pressure[own],
+        traction=curve.traction[own],
+        hoop=None if curve.hoop is None else curve.hoop[own],
+        status=curve.status[own],
+    )
 
 
 def forces(data: PictureData) -> Iterator[ChartData]:

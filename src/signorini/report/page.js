@@ -47,6 +47,90 @@ for (const figure of document.querySelectorAll(".chart")) {
   });
 }
 
+for (const figure of document.querySelectorAll(".map")) {
+  const data = JSON.parse(figure.querySelector("script").textContent), svg = figure.querySelector("svg");
+  const faces = figure.querySelectorAll(".faces path"), cursor = figure.querySelector(".cursor");
+  const what = figure.querySelector("select"), slider = figure.querySelector("input");
+  const legend = figure.querySelector(".legend"), key = figure.querySelector(".key"), told = figure.querySelector("output");
+  let step = data.steps.length - 1, index = -1;
+
+  const tell = () => {
+    if (index < 0) return;
+    cursor.setAttribute("cx", data.x[index]);
+    cursor.setAttribute("cy", data.y[index]);
+    const own = data.steps[step], said = data.names.map((name, k) => `${name.split(",")[0]} ${own.values[k][index]}`);
+    told.textContent = `${data.at[index]}:  ${said.join(";  ")};  ${data.states[own.status[index]][0]}`;
+  };
+  const paint = () => {
+    const k = Number(what.value), own = data.steps[step], status = k === data.names.length;
+    const shade = status ? (ring) => data.states[most(ring.map((node) => own.status[node]))][1] : (ring) => {
+      const mean = ring.reduce((sum, node) => sum + own.values[k][node], 0) / ring.length;
+      return data.colours[Math.round((data.colours.length - 1) * Math.min(1, Math.max(0, mean / (data.tops[k] || 1))))];
+    };
+    faces.forEach((path, number) => {
+      const face = data.faces[number];
+      path.setAttribute("fill", shade(face[2] === face[3] ? face.slice(0, 3) : face));
+    });
+    key.hidden = status;
+    key.firstChild.textContent = `${data.names[k]}: 0 `;
+    key.lastChild.textContent = ` ${Number((data.tops[k] ?? 0).toPrecision(4))}`;
+    legend.replaceChildren(...(status ? data.states.filter((_, code) => own.status.includes(code)) : []).map(([words, ink]) => {
+      const entry = document.createElement("span"), dot = document.createElement("b");
+      dot.style.background = ink;
+      entry.append(dot, words);
+      return entry;
+    }));
+    if (slider) slider.parentElement.querySelector("span").textContent = own.name;
+    tell();
+  };
+  const most = (codes) => codes.reduce((best, code) =>
+    codes.filter((other) => other === code).length >= codes.filter((other) => other === best).length ? code : best);
+  const least = (cost) => data.x.reduce((best, _, k) => (cost(k) < cost(best) ? k : best), 0);
+  svg.addEventListener("pointermove", (event) => {
+    const box = svg.getBoundingClientRect(), scale = svg.viewBox.baseVal.width / box.width;
+    const x = (event.clientX - box.left) * scale, y = (event.clientY - box.top) * scale;
+    index = least((k) => (data.x[k] - x) ** 2 + (data.y[k] - y) ** 2);
+    tell();
+  });
+  svg.addEventListener("keydown", (event) => {
+    const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const here = index, at = here < 0 ? [svg.viewBox.baseVal.width / 2, svg.viewBox.baseVal.height / 2] : [data.x[here], data.y[here]];
+    const found = least((k) => {
+      const right = data.x[k] - at[0], down = data.y[k] - at[1], along = right * way[0] + down * way[1];
+      if (here < 0) return right ** 2 + down ** 2;
+      return along > 0.5 ? along + 3 * Math.abs(right * way[1] - down * way[0]) : Infinity;
+    });
+    const ahead = (data.x[found] - at[0]) * way[0] + (data.y[found] - at[1]) * way[1];
+    if (here < 0 || ahead > 0.5) index = found;
+    tell();
+  });
+  what.addEventListener("change", paint);
+  if (slider) slider.addEventListener("input", () => { step = Number(slider.value); paint(); });
+}
+
+for (const table of document.querySelectorAll("main table")) {
+  const body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
+  if (body.rows.length < 3) continue;
+  heads.forEach((head, column) => {
+    const button = document.createElement("button");
+    button.textContent = head.textContent;
+    head.replaceChildren(button);
+    button.addEventListener("click", () => {
+      const sign = head.getAttribute("aria-sort") === "ascending" ? -1 : 1;
+      heads.forEach((other) => other.removeAttribute("aria-sort"));
+      head.setAttribute("aria-sort", sign > 0 ? "ascending" : "descending");
+      const text = (row) => row.cells[column].textContent;
+      const before = (one, two) => {
+        const difference = Number(text(one)) - Number(text(two));
+        return sign * (Number.isNaN(difference) ? text(one).localeCompare(text(two), "en", { numeric: true }) : difference);
+      };
+      body.append(...[...body.rows].sort(before));
+    });
+  });
+}
+
 for (const figure of document.querySelectorAll(".scene")) {
   const data = JSON.parse(figure.querySelector("script").textContent), canvas = figure.querySelector("canvas");
   const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });

@@ -25,6 +25,7 @@ from signorini.plot.solid import draw_solid_field
 from signorini.plot.style import literal
 from signorini.plot.units import Units
 from signorini.report.charts import chart
+from signorini.report.contact_map import contact_maps
 from signorini.report.curves import forces, hysteresis, profiles, reactions
 from signorini.report.markup import listed, said, table
 from signorini.report.scene import scene
@@ -124,7 +125,8 @@ def _sections(history: History, fields: Fields | None) -> Iterator[tuple[str, st
     if along:
         yield "Contacts", "".join(map(chart, along))
     elif data.model.contacts:
-        yield "Contacts", _picture(draw_contacts(data), "pressure, status and friction of the contacts", data.units)
+        still = _picture(draw_contacts(data), "pressure, status and friction of the contacts", data.units)
+        yield "Contacts", "".join(contact_maps(data)) + still
     if over := [*forces(data), *hysteresis(data), *reactions(data)]:
         yield "History", "".join(map(chart, over))
     drawn = draw_solid_field(data, data.stress) if data.solid else draw_field(data, data.stress)
@@ -172,23 +174,17 @@ def _problem(model: Model) -> str:
 
 
 def _results(history: History) -> str:
-    parts = []
-    left = len(history.steps) - _MOST_STEPS
-    for number, step in enumerate(history.steps, start=1):
-        if number <= left:
-            continue
-        rows = [(contact.name, *contact_row(contact)) for contact in step.contacts]
-        held = [
-            (name, spell_vector(force, 1e-12 * float(abs(step.external).sum())))
-            for name, force in step.reactions.items()
-        ]
-        far = "" if step.finished else ", not finished"
-        parts.append(f"<h3>Step {number}, {said(step.name)}{far}</h3>")
-        if rows:
-            parts.append(table([("contact", *CONTACT_HEAD), *rows], numbers=range(3, 9)))
-        if held:
-            parts.append(table([("support", "reaction on the bodies"), *held]))
-    more = f"<p>The first {left} steps are in history.csv.</p>" if left > 0 else ""
+    rows, held, left = [], [], max(0, len(history.steps) - _MOST_STEPS)
+    for number, step in enumerate(history.steps[left:], start=left + 1):
+        when = f"{number} {step.name}" + ("" if step.finished else ", not finished")
+        rows += [(when, contact.name, *contact_row(contact)) for contact in step.contacts]
+        noise = 1e-12 * float(abs(step.external).sum())
+        held += [(when, name, spell_vector(force, noise)) for name, force in step.reactions.items()]
+    parts = [
+        table([("step", "contact", *CONTACT_HEAD), *rows], numbers=range(4, 10), caption="Contacts") if rows else "",
+        table([("step", "support", "reaction on the bodies"), *held], caption="Reactions") if held else "",
+    ]
+    more = f"<p>The first {left} steps are in history.csv.</p>" if left else ""
     whole = (
         f"<details><summary>the table of the command line</summary><pre>{said(history_table(history))}</pre></details>"
     )
