@@ -31,6 +31,7 @@ BASE = {
     "arrays",
     "checks",
     "clock",
+    "compilation",
     "cores",
     "doors",
     "meshio_fixes",

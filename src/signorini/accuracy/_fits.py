@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from numba import njit
-
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel
 
 
-@njit(cache=True)
+@kernel()
 def add_points(
     patches: tuple[IntArray, IntArray],
     places: Array,

@@ -10,6 +10,7 @@ import textwrap
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -61,14 +62,25 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
         raise InputError(one_of(options.backend, known, "back end"), where=("--backend",))
     start = _start(options.start)
     path = Path(options.folder) if options.folder else Path("out", deck.path.stem)
-    note = "" if compiled() else "first solve on this machine: compiling takes half a minute, once"
+    first = not compiled()
+    note = "first solve on this machine: compiling takes ten seconds, once" if first else ""
     with own_folder(path, deck.path.name) as folder:
-        with progress(quiet=options.quiet or options.json, seconds=clock.seconds, note=note, log=log) as clock:
+        quiet = options.quiet or options.json
+        with _help(first), progress(quiet=quiet, seconds=clock.seconds, note=note, log=log) as clock:
             publisher = Publisher(folder=folder, clock=clock, started=started, deck=deck.path.name, prints=deck.prints)
             history = _solve(deck, options, clock, start, _kept(publisher))
             files = publisher.publish(history)
             clock.says(f"{history.status}: {history.message}" if history.message else str(history.status))
         return _told(deck, options, history, files, folder, started)
+
+
+def _help(first: bool) -> AbstractContextManager[None]:
+    """Another process that compiles beside the first run, which later ones do without."""
+    if not first:
+        return nullcontext()
+    from signorini.cli.first_run import helped
+
+    return helped()
 
 
 def _kept(publisher: Publisher) -> Callable[[History], None]:

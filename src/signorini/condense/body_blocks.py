@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
-from numba import njit
 from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel
 
 DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
 _TILE = 64  # rows and columns mirrored at a time
@@ -172,7 +172,7 @@ def inverse_of(cholesky: Array, *, overwrite: bool = False) -> Array:
     return np.asarray(inverse, dtype=np.float64)
 
 
-@njit(cache=True)
+@kernel()
 def mirror(matrix: Array) -> None:
     """Overwrite the upper triangle by the lower, in tiles that fit the cache."""
     for low in range(0, len(matrix), _TILE):

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from numba import njit
 
 from signorini.arrays import Array, BoolArray, Int32Array, IntArray
+from signorini.compilation import kernel
 from signorini.condense.ties import Ties, make_ties
 from signorini.interface.active import FreeBodies, active_pairs, with_supple
 from signorini.interface.interface import Interface
@@ -91,7 +91,7 @@ def interface_stiffness(
     return result
 
 
-@njit(cache=True)
+@kernel()
 def _block(
     begin: Int32Array, column: Int32Array, value: Array, dofs: IntArray, place: IntArray
 ) -> tuple[Array, Int32Array, Int32Array]:
@@ -110,7 +110,7 @@ def _block(
     return data, indices, indptr
 
 
-@njit(cache=True)
+@kernel()
 def _felt(
     B_begin: Int32Array,
     B_column: Int32Array,

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array
+from signorini.compilation import kernel, part
 
 _ROUNDS = 40  # walks per dimension: some ten are seen; what then is left is a ball that holds all, not the smallest
 _OUTWARD = 1e-10  # of the size: rounding of a way, and of a direction in which a point neither comes nor goes
@@ -14,7 +14,7 @@ _DEPENDENT = 1e-20  # of the square of an edge: what is left of one that lies in
 _NEGATIVE = 1e-12  # weights of points that are on the ball but do not hold it
 
 
-@njit(cache=True)
+@kernel()
 def smallest_ball(points: Array) -> tuple[Array, float]:
     """Centre (d,) and radius of the smallest ball around points (n, d).
 
@@ -58,7 +58,7 @@ def smallest_ball(points: Array) -> tuple[Array, float]:
     return centre, np.sqrt(_square(points[_farthest(points, centre)], centre))
 
 
-@njit(cache=True)
+@kernel()
 def smallest_balls(paths: Array) -> tuple[Array, Array]:
     """Centres (n, d) and radii (n,) of the smallest balls around paths (n, t, d)."""
     n, _, d = paths.shape
@@ -68,7 +68,7 @@ def smallest_balls(paths: Array) -> tuple[Array, Array]:
     return centres, radii
 
 
-@njit(cache=True)
+@part()
 def _square(one: Array, other: Array) -> float:
     """Square of a distance."""
     total = 0.0
@@ -77,7 +77,7 @@ def _square(one: Array, other: Array) -> float:
     return total
 
 
-@njit(cache=True)
+@part()
 def _farthest(points: Array, centre: Array) -> int:
     """The point that is farthest from a centre."""
     found, largest = 0, -1.0
@@ -88,7 +88,7 @@ def _farthest(points: Array, centre: Array) -> int:
     return found
 
 
-@njit(cache=True)
+@part()
 def _middle(points: Array, touching: Array) -> tuple[Array, Array]:
     """The centre of the sphere through points, in their plane, and its weights: ``sum w p``, ``sum w = 1``."""
     first, count = points[touching[0]], len(touching) - 1
@@ -120,7 +120,7 @@ def _middle(points: Array, touching: Array) -> tuple[Array, Array]:
     return middle, weights
 
 
-@njit(cache=True)
+@part()
 def _first_touched(points: Array, touching: Array, centre: Array, goal: Array, size: float) -> tuple[int, float]:
     """The point that a ball touches first whose centre walks, and the part of the way; -1 where it touches none."""
     way, first = goal - centre, points[touching[0]]

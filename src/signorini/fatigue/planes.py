@@ -9,9 +9,9 @@ at on a grid over all directions of space, and from its best ones on by steps th
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array
+from signorini.compilation import kernel, part
 from signorini.fatigue.ball import smallest_ball
 
 _SPACING = np.radians(6.0)  # between planes of the grid: maxima are wider than 45 degrees
@@ -35,7 +35,7 @@ def grid_of_planes() -> Array:
     return np.concatenate(found)
 
 
-@njit(cache=True)
+@kernel()
 def critical_planes(stress: Array, strain: Array, grid: Array, shear: bool, slope: float) -> tuple[Array, Array]:
     """The planes on which a parameter is largest, (n, 3) normals, and the parameter with its terms, (n, 3).
 
@@ -70,7 +70,7 @@ def critical_planes(stress: Array, strain: Array, grid: Array, shear: bool, slop
     return planes, found
 
 
-@njit(cache=True)
+@part()
 def _steepest(start: Array, stress: Array, strain: Array, shear: bool, slope: float) -> Array:
     """The plane of the maximum near one, by steps along eight directions that halve where none of them leads up."""
     normal, step = start.copy(), 0.5 * _SPACING
@@ -92,7 +92,7 @@ def _steepest(start: Array, stress: Array, strain: Array, shear: bool, slope: fl
     return normal
 
 
-@njit(cache=True)
+@part()
 def _tangents(normal: Array) -> tuple[Array, Array]:
     """Two unit vectors of a plane, the second along z as far as it can be."""
     one = np.array([-normal[1], normal[0], 0.0])
@@ -106,7 +106,7 @@ def _tangents(normal: Array) -> tuple[Array, Array]:
     return one, other
 
 
-@njit(cache=True)
+@part()
 def _on_plane(normal: Array, stress: Array, strain: Array, shear: bool, slope: float) -> tuple[float, float, float]:
     """The parameter on a plane, the amplitude of its strain and its largest normal stress."""
     most, low, high = -np.inf, np.inf, -np.inf
@@ -128,14 +128,14 @@ def _on_plane(normal: Array, stress: Array, strain: Array, shear: bool, slope: f
     return amplitude * max(1.0 + slope * most, 0.0), amplitude, most
 
 
-@njit(cache=True)
+@part()
 def _weights(a: Array, b: Array) -> Array:
     """(6,) What the components of a tensor s count for in ``a . s b``."""
     products = (a[0] * b[1] + a[1] * b[0], a[1] * b[2] + a[2] * b[1], a[0] * b[2] + a[2] * b[0])
     return np.array([a[0] * b[0], a[1] * b[1], a[2] * b[2], products[0], products[1], products[2]])
 
 
-@njit(cache=True)
+@part()
 def _component(tensors: Array, t: int, weights: Array) -> float:
     """A weighted sum of the components of one of several tensors."""
     total = 0.0

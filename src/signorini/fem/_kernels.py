@@ -6,12 +6,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, Int32Array, IntArray
+from signorini.compilation import kernel, part
 
 
-@njit(cache=True)
+@kernel()
 def node_pattern(start: IntArray, corner: Int32Array, nodes: int) -> tuple[IntArray, Int32Array]:
     """Give the sorted rows of the graph that joins all nodes of an element; a node is its own neighbour.
 
@@ -52,7 +52,7 @@ def node_pattern(start: IntArray, corner: Int32Array, nodes: int) -> tuple[IntAr
     return rows, _transposed(rows, columns[:top])
 
 
-@njit(cache=True)
+@part()
 def _transposed(rows: IntArray, columns: Int32Array) -> Int32Array:
     """Give the columns of the transposed pattern; of a symmetric one: the same, but sorted."""
     top = rows.copy()
@@ -64,7 +64,7 @@ def _transposed(rows: IntArray, columns: Int32Array) -> Int32Array:
     return out
 
 
-@njit(cache=True)
+@kernel()
 def unknown_pattern(rows: IntArray, columns: Int32Array, d: int) -> tuple[Int32Array, Int32Array]:
     """Give every node d unknowns, ``d * node + component``.
 
@@ -139,7 +139,7 @@ class SparsityPattern(NamedTuple):
     data: Array
 
 
-@njit(cache=True)
+@kernel()
 def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPattern) -> tuple[int, int]:
     """Add the stiffness of the elements of one kind; give (-1, 0), or the first bad element and what is wrong with it.
 
@@ -163,7 +163,8 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
     K = np.empty((every * c, every * c))
     g = np.empty(every * e)
     x = np.empty((nodes, d))
-    J, I = np.eye(3), np.empty((3, 3))  # noqa: E741
+    J, I = np.zeros((3, 3)), np.empty((3, 3))  # noqa: E741
+    J[2, 2] = 1.0  # of meshes in the plane, which leave the last row and column
     divergence, volume = np.zeros((len(weights), nodes * c)), np.empty(len(weights))
     for t in range(len(cells)):
         for a in range(nodes):
@@ -209,7 +210,7 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
     return -1, 0
 
 
-@njit(cache=True)
+@part()
 def _gradients(x: Array, reference: Array, J: Array, I: Array, g: Array, e: int) -> float:  # noqa: E741
     """Write the gradients at one point, e components a node; give the Jacobian, 0 where it is only round-off.
 
@@ -249,7 +250,7 @@ def _gradients(x: Array, reference: Array, J: Array, I: Array, g: Array, e: int)
     return float(det)
 
 
-@njit(cache=True)
+@part()
 def _combine(C: Array, nodes: int, d: int, e: int, entries: IntArray, law: Array, K: Array) -> None:
     """Combine the products of gradients by the law of the material."""
     total = np.empty(d * d)
@@ -266,7 +267,7 @@ def _combine(C: Array, nodes: int, d: int, e: int, entries: IntArray, law: Array
                     K[b * d + s, a * d + r] = total[r * d + s]
 
 
-@njit(cache=True)
+@part()
 def _eliminate(K: Array, keep: int) -> None:
     """Eliminate the unknowns behind the first `keep`, the last one first; they bear no load."""
     for p in range(len(K) - 1, keep - 1, -1):
@@ -276,7 +277,7 @@ def _eliminate(K: Array, keep: int) -> None:
                 K[i, j] -= factor * K[p, j]
 
 
-@njit(cache=True)
+@part()
 def _project(K: Array, divergence: Array, volume: Array, pressures: Array, bulk: float) -> None:
     """Take away ``bulk int (b - P b)(b - P b)^T``, b the rows of the divergence, P the projection on `pressures`."""
     p, n = pressures.shape[1], divergence.shape[1]
@@ -306,7 +307,7 @@ def _project(K: Array, divergence: Array, volume: Array, pressures: Array, bulk:
                 K[i, j] -= factor * divergence[q, j]
 
 
-@njit(cache=True)
+@part()
 def scatter(K: Array, cell: IntArray, d: int, rows: IntArray, columns: IntArray, data: Array) -> None:
     """Add the matrix of an element to a matrix on the pattern of the nodes.
 

@@ -11,9 +11,9 @@ from functools import cache
 
 import numpy as np
 import skfem
-from numba import njit
 
 from signorini.arrays import Array
+from signorini.compilation import kernel, part
 from signorini.meshing.facets import facet_corners
 
 _EDGE = np.array([[-1.0], [1.0], [0.0]])
@@ -120,7 +120,7 @@ def gauss_rule(corners: int, points: int) -> tuple[Array, Array]:
     return np.column_stack([a, (1.0 - a) * b]), 0.25 * both * (1.0 - a)
 
 
-@njit(cache=True)
+@part()
 def shapes(count: int, x: float, y: float, N: Array) -> None:
     """Values of the shape functions at (x, y), into N (count,).
 
@@ -155,7 +155,7 @@ def shapes(count: int, x: float, y: float, N: Array) -> None:
         N[3] -= 0.5 * (N[6] + N[7])
 
 
-@njit(cache=True)
+@kernel()
 def slopes(count: int, x: float, y: float, D: Array) -> None:
     """Derivatives of the shape functions at (x, y), into D (2, count)."""
     if count == 3 or count == 6:
@@ -187,7 +187,7 @@ def slopes(count: int, x: float, y: float, D: Array) -> None:
             D[e, 3] -= 0.5 * (D[e, 6] + D[e, 7])
 
 
-@njit(cache=True)
+@kernel()
 def _face_shapes(count: int, places: Array) -> tuple[Array, Array]:
     """Values (q, count) and derivatives (q, count, 2) of the shape functions of a face at places (q, 2)."""
     N, D, slope = np.empty((len(places), count)), np.empty((len(places), count, 2)), np.empty((2, count))

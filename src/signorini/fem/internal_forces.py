@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel
 
 _SPLIT = 134217729.0  # 2^27 + 1: halves the digits of a number
 
@@ -37,7 +37,7 @@ def internal_forces(K: sp.csr_array, u: Array) -> Array:
     return forces
 
 
-@njit(cache=True)
+@kernel()
 def _multiply(indptr: IntArray, indices: IntArray, data: Array, x: Array, y: Array) -> None:
     """Overwrite y by A x: every product and every sum with what its rounding takes away (Dekker, Knuth)."""
     for i in range(len(indptr) - 1):

@@ -11,9 +11,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.fem.facets import slopes
 
 EMPTY = 1e-14  # of the area of a piece: a common part that is none
@@ -39,7 +39,7 @@ class Sight(NamedTuple):
     spare: Array
 
 
-@njit(cache=True)
+@part()
 def make_sight() -> Sight:
     """Room for what one pair after the other is written into."""
     return Sight(
@@ -47,7 +47,7 @@ def make_sight() -> Sight:
     )
 
 
-@njit(cache=True)
+@part()
 def _cross(a: Array, b: Array, out: Array) -> float:
     """a x b into out; its length."""
     out[0] = a[1] * b[2] - a[2] * b[1]
@@ -56,7 +56,7 @@ def _cross(a: Array, b: Array, out: Array) -> float:
     return math.sqrt(out[0] ** 2 + out[1] ** 2 + out[2] ** 2)
 
 
-@njit(cache=True)
+@part()
 def upright_of(piece: Array, normal: Array) -> None:
     """Unit normal of a piece, from its diagonals."""
     along, across = np.empty(3), np.empty(3)
@@ -67,7 +67,7 @@ def upright_of(piece: Array, normal: Array) -> None:
         normal[e] /= size
 
 
-@njit(cache=True)
+@part()
 def _plane(piece: Array, normal: Array, axes: Array, centre: Array, flat: Array) -> float:
     """Axes (3, 3: two across a unit normal, the normal), centre, and coordinates (c, 2) of a piece across it; its area
     as seen along the normal.
@@ -89,7 +89,7 @@ def _plane(piece: Array, normal: Array, axes: Array, centre: Array, flat: Array)
     return _area(flat, c)
 
 
-@njit(cache=True)
+@part()
 def _flatten(piece: Array, axes: Array, centre: Array, flat: Array) -> None:
     """Plane coordinates of the corners of a piece."""
     for a in range(len(piece)):
@@ -99,7 +99,7 @@ def _flatten(piece: Array, axes: Array, centre: Array, flat: Array) -> None:
                 flat[a, e] += (piece[a, f] - centre[f]) * axes[e, f]
 
 
-@njit(cache=True)
+@part()
 def _area(polygon: Array, count: int) -> float:
     area = 0.0
     for a in range(count):
@@ -108,7 +108,7 @@ def _area(polygon: Array, count: int) -> float:
     return area
 
 
-@njit(cache=True)
+@part()
 def middle_of(polygon: Array, count: int) -> tuple[float, float]:
     """Mean of the corners of a polygon."""
     x, y = 0.0, 0.0
@@ -118,7 +118,7 @@ def middle_of(polygon: Array, count: int) -> tuple[float, float]:
     return x, y
 
 
-@njit(cache=True)
+@part()
 def _clipped(polygon: Array, count: int, window: Array, sides: int, spare: Array) -> int:
     """Cut a convex polygon, in place, to a convex window run through counter-clockwise; how many corners are left."""
     for j in range(sides):
@@ -144,7 +144,7 @@ def _clipped(polygon: Array, count: int, window: Array, sides: int, spare: Array
     return count
 
 
-@njit(cache=True)
+@part()
 def _common(flat: Array, c: int, other: Array, o: int, polygon: Array, spare: Array) -> int:
     """Corners of the common part of two pieces in one plane; the second runs the other way round."""
     window = np.empty((o, 2))
@@ -157,7 +157,7 @@ def _common(flat: Array, c: int, other: Array, o: int, polygon: Array, spare: Ar
     return _clipped(polygon, c, window, o, spare)
 
 
-@njit(cache=True)
+@part()
 def look(piece: Array, opposite: Array, normal: Array, sight: Sight) -> tuple[float, int]:
     """Look from a piece along a normal at one of the other side: its area, and the corners of the common part.
 
@@ -172,7 +172,7 @@ def look(piece: Array, opposite: Array, normal: Array, sight: Sight) -> tuple[fl
     return whole, _common(sight.flat, len(piece), sight.projected, len(opposite), sight.polygon, sight.spare)
 
 
-@njit(cache=True)
+@part()
 def _height(piece: Array, at: Array, direction: Array, normal: Array) -> float:
     """How far along a direction from a point the plane of a piece is."""
     upright_of(piece, normal)
@@ -186,7 +186,7 @@ def _height(piece: Array, at: Array, direction: Array, normal: Array) -> float:
     return height / cosine
 
 
-@njit(cache=True)
+@kernel()
 def overlap_areas(first: Array, second: Array, normals: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
     """Area of the common part of pairs of pieces, and the distance from the first to the second over its centroid.
 
@@ -214,7 +214,7 @@ def overlap_areas(first: Array, second: Array, normals: Array, i: IntArray, j: I
     return area, distance
 
 
-@njit(cache=True)
+@part()
 def place_in(flat: Array, c: int, x: float, y: float, places: Array, found: Array) -> float:
     """Reference place of the point (x, y) of a piece whose corners are at ``flat``, and the area per reference area.
 
@@ -262,7 +262,7 @@ def place_in(flat: Array, c: int, x: float, y: float, places: Array, found: Arra
     return size / (width * depth)
 
 
-@njit(cache=True)
+@part()
 def true_area(nodes: Array, place: Array, D: Array, normal: Array) -> float:
     """Area of a face per reference area at a reference place; times its outward normal there, into ``normal``.
 
@@ -282,7 +282,7 @@ def true_area(nodes: Array, place: Array, D: Array, normal: Array) -> float:
     return _cross(x, y, normal)
 
 
-@njit(cache=True)
+@part()
 def point_at(nodes: Array, N: Array, point: Array) -> None:
     """Where a face is that has shape functions N, into ``point``.
 
@@ -298,7 +298,7 @@ def point_at(nodes: Array, N: Array, point: Array) -> None:
             point[e] += N[a] * nodes[a, e]
 
 
-@njit(cache=True)
+@part()
 def rotate(vector: Array, before: Array, after: Array) -> None:
     """Turn a vector, in place, by what turns one unit vector into another; see `interface.tilt.rotate_between`.
 

@@ -11,9 +11,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.fem.facets import shapes
 from signorini.interface.clip import (
     EMPTY,
@@ -108,7 +108,7 @@ class _Points(NamedTuple):
     shares: Array
 
 
-@njit(cache=True)
+@part()
 def _make_points(count: int) -> _Points:
     """Room for polygons of 16 corners with so many points a triangle."""
     q = 16 * count
@@ -117,7 +117,7 @@ def _make_points(count: int) -> _Points:
     )
 
 
-@njit(cache=True)
+@part()
 def _gather(pairs: PiecePairs, k: int, rule: Rule, sight: Sight, points: _Points) -> int:
     """The quadrature points of pair k, into ``points``; their number."""
     i, j = pairs.i[k], pairs.j[k]
@@ -158,7 +158,7 @@ def _gather(pairs: PiecePairs, k: int, rule: Rule, sight: Sight, points: _Points
     return q
 
 
-@njit(cache=True)
+@kernel()
 def integrate(pairs: PiecePairs, rule: Rule, gap_rule: Rule, sums: Sums) -> None:
     """Add up integrals over the common parts of pairs of pieces.
 
@@ -196,7 +196,7 @@ def integrate(pairs: PiecePairs, rule: Rule, gap_rule: Rule, sums: Sums) -> None
             _widen(pairs, k, count, sight.axes[2], points, sums.over[face])
 
 
-@njit(cache=True)
+@part()
 def _widen(pairs: PiecePairs, k: int, count: int, sight: Array, points: _Points, over: Array) -> None:
     """Add up what the gap between the surfaces of a pair's faces, interpolated as displacements are, is larger than
     that of the faces.
@@ -222,7 +222,7 @@ def _widen(pairs: PiecePairs, k: int, count: int, sight: Array, points: _Points,
             over[e] += points.hats[q, e] * across * (lean * gap - distance)
 
 
-@njit(cache=True)
+@kernel()
 def spread_gaps(pairs: PiecePairs, ends: Array, low: Array, high: Array) -> None:
     """Distances to the other side at the corners of faces, and the smallest and largest on each of them.
 

@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.fem.facets import shapes, slopes
 
 _STEPS = 20  # of Newton, at most; what has no place by then has none
 _STILL = 1e-10  # of a reference face: the step after that is rounding
 
 
-@njit(cache=True)
+@part()
 def _step(first: Array, second: Array, third: Array, rhs: Array, out: Array) -> bool:
     """Solve ``[first second third] out = rhs`` by Cramer's rule; False where the columns are dependent."""
     a = second[1] * third[2] - second[2] * third[1]
@@ -34,7 +34,7 @@ def _step(first: Array, second: Array, third: Array, rhs: Array, out: Array) -> 
     return True
 
 
-@njit(cache=True)
+@part()
 def land(point: Array, direction: Array, face: Array, place: Array) -> float:
     """Signed distance from a point along a unit direction (3,) to a face, NaN where the line does not meet it.
 
@@ -69,7 +69,7 @@ def land(point: Array, direction: Array, face: Array, place: Array) -> float:
     return np.nan
 
 
-@njit(cache=True)
+@kernel()
 def meet(points: Array, directions: Array, faces: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
     """Reference place (k, 2) and signed distance (k,) where the line through a point meets a face; NaN where none.
 

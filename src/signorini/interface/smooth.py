@@ -20,6 +20,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.compilation import kernel
 
 _LEAST_ROOT = 0.5  # least 1 - 2 k b: beyond it a surface has turned too far from its facet to be one over it
 
@@ -126,7 +127,7 @@ def bow(one: Smooth, i: int, two: Smooth, j: int, nodes: Array, point: Array, sh
     return total
 
 
-@njit(cache=True)
+@kernel()
 def rises(surface: Smooth, facets: IntArray, points: Array, shapes: Array, sights: Array) -> Array:
     """:func:`rise` of facets (p,) at points (p, q, d) with shape functions (p, q, k), along (p, d); (p, q).
 
@@ -143,7 +144,7 @@ def rises(surface: Smooth, facets: IntArray, points: Array, shapes: Array, sight
     return result
 
 
-@njit(cache=True)
+@kernel()
 def bows(one: Smooth, two: Smooth, i: IntArray, j: IntArray, nodes: Array, points: Array, shapes: Array) -> Array:
     """:func:`bow` on facets i (p,) with nodes (m, k, d) at points (p, q, d) with shape functions (p, q, k); (p, q).
 
@@ -160,7 +161,7 @@ def bows(one: Smooth, two: Smooth, i: IntArray, j: IntArray, nodes: Array, point
     return result
 
 
-@njit(cache=True)
+@kernel()
 def heights(surface: Smooth, facets: IntArray, points: Array) -> Array:
     """Heights over points (p, d), and squared cosines between the normals of facet and surface there, (p, 2).
 

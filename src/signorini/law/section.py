@@ -18,9 +18,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.compilation import kernel, part
 
 _ROOT_TOL = 1e-15  # of the root and of the axes: a step of Newton's method below it is rounding
 _ROOT_STEPS = 100  # of Newton's method for the nearest point of an ellipse, which takes some five
@@ -28,7 +28,7 @@ _POINT = 1e-150  # half-axis whose square underflows: a section smaller than tha
 _FLAT_AXIS = 1e-8  # of the largest half-axis: one that counts as none
 
 
-@njit(cache=True)
+@part()
 def _on_ellipse(y_1: float, y_2: float, a_1: float, a_2: float) -> tuple[float, float, float, float, float]:
     """Nearest point of an ellipse with half-axes a from outside it, its tangent, and kappa.
 
@@ -56,7 +56,7 @@ def _on_ellipse(y_1: float, y_2: float, a_1: float, a_2: float) -> tuple[float, 
     return r_1, r_2, tau_1, tau_2, t * ((tau_1 / a_1) ** 2 + (tau_2 / a_2) ** 2)
 
 
-@njit(cache=True)
+@part()
 def _on_polygon(y_1: float, y_2: float, a_1: float, a_2: float, facets: int) -> tuple[float, float, int, float, float]:
     """Nearest point of a polygon (counter-clockwise), how many directions are left to it, and the direction."""
     best, count = np.inf, 2
@@ -79,7 +79,7 @@ def _on_polygon(y_1: float, y_2: float, a_1: float, a_2: float, facets: int) -> 
     return (y_1, y_2, 2, 0.0, 0.0) if inside else (r_1, r_2, count, tau_1, tau_2)
 
 
-@njit(cache=True)
+@kernel()
 def nearest_point(
     y_1: float, y_2: float, m_1: float, m_2: float, s: float, facets: int
 ) -> tuple[float, float, int, float, float, float]:
@@ -114,7 +114,7 @@ def nearest_point(
     return r_1, r_2, 1, tau_1, tau_2, kappa
 
 
-@njit(cache=True)
+@kernel()
 def _project_all(y: Array, axes: Array, size: Array, sides: IntArray) -> tuple[Array, IntArray, Array, Array]:
     """`nearest_point` for every pair: y (2, n), axes (2, n), size and sides (n,)."""
     n = len(size)

@@ -6,12 +6,11 @@ Those who use them import them where they do, since Numba takes longer to import
 
 from __future__ import annotations
 
-from numba import njit
-
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def sweeps(
     start: IntArray,
     index: IntArray,
@@ -46,7 +45,7 @@ def sweeps(
                 z[i] = max(0.0, z[i] - omega * w / diagonal)
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def exchange(T: Array, row: int, at: int) -> None:
     """Pivot a Fortran-ordered condensed tableau in place on ``T[row, at]``.
 

@@ -4,15 +4,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 
 TRUSTED_PIVOT, ZERO_PIVOT = 1e-9, 1e-13  # over the first pivot: relied on above, 0 below
 INCONSISTENCY = 1e-6  # of the largest unknown: what may remain of q where the block is singular
 
 
-@njit(cache=True)
+@kernel()
 def eliminate_pivoting(block: Array, size: int, order: IntArray) -> int:
     """Gauss elimination of ``block[:size, :size + 1]`` with complete pivoting; returns the rank.
 
@@ -47,7 +47,7 @@ def eliminate_pivoting(block: Array, size: int, order: IntArray) -> int:
     return size
 
 
-@njit(cache=True)
+@kernel()
 def substitute_back(block: Array, size: int, rank: int) -> float:
     """Solve for the first ``rank`` unknowns after elimination; returns the largest of them with the others 0, or 1.
 
@@ -65,7 +65,7 @@ def substitute_back(block: Array, size: int, rank: int) -> float:
     return scale
 
 
-@njit(cache=True)
+@part()
 def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, block: Array, order: IntArray) -> float:
     """What a solution with its positive components exactly on ``support[:size]`` lacks; 0 where there may be one.
 
@@ -118,7 +118,7 @@ def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, 
     return lack / scale
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def screen(A: Array, q: Array, tolerance: float, lack: Array) -> None:
     """Write into ``lack[mask]`` what a solution with its positive components exactly on the bits of the mask lacks.
 

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.lcp.delayed import DOUBT, MORE, RAY, SOLVED, DelayedTableau, Tolerances
 
 
-@njit(cache=True)
+@part()
 def blocking(column: Array, rhs: Array, tolerances: Tolerances, rows: IntArray) -> tuple[int, float]:
     """Write the rows that stop the entering variable first, ties included; returns their number and the step.
 
@@ -44,7 +43,7 @@ def blocking(column: Array, rhs: Array, tolerances: Tolerances, rows: IntArray) 
     return count, step
 
 
-@njit(cache=True)
+@kernel()
 def least_lexicographic(tableau: DelayedTableau, used: int, rates: Array, count: int, tolerance: float) -> int:
     """Row of the basis inverse that, over its rate, is lexicographically least.
 
@@ -83,7 +82,7 @@ def least_lexicographic(tableau: DelayedTableau, used: int, rates: Array, count:
     return rows[0]
 
 
-@njit(cache=True)
+@part()
 def current_column(tableau: DelayedTableau, used: int, at: int) -> None:
     """Write column ``at`` of ``T - U V`` into column ``used`` of U, those before it of the tableau in use."""
     T, U, V = tableau.T, tableau.U, tableau.V
@@ -96,7 +95,7 @@ def current_column(tableau: DelayedTableau, used: int, at: int) -> None:
                 U[i, used] -= factor * U[i, delayed]
 
 
-@njit(cache=True)
+@part()
 def exchange_delayed(tableau: DelayedTableau, used: int, row: int, at: int) -> None:
     """Pivot on an entry of ``T - U V``, whose column is in U; V receives its row.
 
@@ -131,7 +130,7 @@ def exchange_delayed(tableau: DelayedTableau, used: int, row: int, at: int) -> N
     fresh[m - 1] = fresh[at] = 0.0
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def walk(
     tableau: DelayedTableau, entering: int, limit: int, theta_stays: bool, tolerances: Tolerances
 ) -> tuple[int, int, int, int]:

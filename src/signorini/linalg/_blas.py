@@ -12,11 +12,12 @@ from typing import Any, NamedTuple
 
 import llvmlite.binding  # type: ignore[import-untyped]
 import numpy as np
-from numba import njit, types
+from numba import types
 from numba.extending import get_cython_function_address
 from numpy.typing import NDArray
 
 from signorini.arrays import Array, Int32Array
+from signorini.compilation import part
 
 
 def _external(module: str, name: str, arguments: int) -> Any:
@@ -32,16 +33,40 @@ _dgemm = _external("cython_blas", "dgemm", 13)
 
 
 class Scratch(NamedTuple):
-    """Numbers that BLAS reads by address, kept alive by whoever calls a compiled loop."""
+    """What BLAS reads by address, kept alive by whoever calls a compiled loop.
+
+    Words are addresses too, so that a loop is compiled once for all of them.
+
+    Attributes
+    ----------
+    size : (6,) sizes and strides of a call
+    sizes : address of them
+    left, right, transposed, plain : addresses of the letters for the side of a triangle, and for op
+    one, minus_one, zero : addresses of factors
+    kept : the factors
+    letters : those letters
+    """
 
     size: Int32Array
-    factor: Array
-    letter: NDArray[np.uint8]
+    sizes: int
+    left: int
+    right: int
+    transposed: int
+    plain: int
+    one: int
+    minus_one: int
+    zero: int
+    kept: Array
+    letters: NDArray[np.uint8]
 
 
 def scratch() -> Scratch:
     """Give fresh memory for the arguments of BLAS; one per thread."""
-    return Scratch(np.zeros(6, np.int32), np.array([1.0, -1.0, 0.0]), np.frombuffer(b"LRTN", np.uint8).copy())
+    size, kept = np.zeros(6, np.int32), np.array([1.0, -1.0, 0.0])
+    letters = np.frombuffer(b"LRTN", np.uint8).copy()
+    left, right, transposed, plain = (letters.ctypes.data + k for k in range(4))
+    one, minus_one, zero = (kept.ctypes.data + 8 * k for k in range(3))
+    return Scratch(size, size.ctypes.data, left, right, transposed, plain, one, minus_one, zero, kept, letters)
 
 
 class StoredMatrix(NamedTuple):
@@ -57,7 +82,7 @@ class StoredMatrix(NamedTuple):
     stride: int
 
 
-@njit(cache=True)
+@part()
 def potrf(k: int, A: StoredMatrix, s: Scratch) -> int:
     """Overwrite the lower triangle of A, (k, k), by its Cholesky factor; 0, or the 1-based column of a pivot <= 0.
 
@@ -67,64 +92,61 @@ def potrf(k: int, A: StoredMatrix, s: Scratch) -> int:
     s : of the caller
     """
     s.size[0], s.size[1] = k, A.stride
-    z, c = s.size.ctypes.data, s.letter.ctypes.data
-    _dpotrf(c, z, A.begin, z + 4, z + 8)
+    z = s.sizes
+    _dpotrf(s.left, z, A.begin, z + 4, z + 8)
     return int(s.size[2])
 
 
-@njit(cache=True)
-def trsm(right: bool, transposed: bool, m: int, n: int, L: StoredMatrix, B: StoredMatrix, s: Scratch) -> None:
+@part()
+def trsm(side: int, op: int, m: int, n: int, L: StoredMatrix, B: StoredMatrix, s: Scratch) -> None:
     """Overwrite B, (m, n), by ``op(L)^-1 B``, or ``B op(L)^-1`` from the right; L is lower triangular.
 
     Parameters
     ----------
-    right, transposed : the side of L, and whether op transposes
+    side, op : of L, words of `s`
     m, n, L, B : sizes and matrices
     s : of the caller
     """
     s.size[0], s.size[1], s.size[2], s.size[3] = m, n, L.stride, B.stride
-    z, c, f = s.size.ctypes.data, s.letter.ctypes.data, s.factor.ctypes.data
-    op = c + (2 if transposed else 3)
-    _dtrsm(c + (1 if right else 0), c, op, c + 3, z, z + 4, f, L.begin, z + 8, B.begin, z + 12)
+    z = s.sizes
+    _dtrsm(side, s.left, op, s.plain, z, z + 4, s.one, L.begin, z + 8, B.begin, z + 12)
 
 
-@njit(cache=True)
-def syrk(n: int, k: int, A: StoredMatrix, keep: bool, C: StoredMatrix, s: Scratch) -> None:
-    """Overwrite the lower triangle of C, (n, n), by ``[C] - A A^T``.
+@part()
+def syrk(n: int, k: int, A: StoredMatrix, share: int, C: StoredMatrix, s: Scratch) -> None:
+    """Overwrite the lower triangle of C, (n, n), by ``share C - A A^T``.
 
     Parameters
     ----------
     n, k, A, C : sizes and matrices, A (n, k)
-    keep : whether C counts
+    share : of C that counts, a factor of `s`
     s : of the caller
     """
     s.size[0], s.size[1], s.size[2], s.size[3] = n, k, A.stride, C.stride
-    z, c, f = s.size.ctypes.data, s.letter.ctypes.data, s.factor.ctypes.data
-    _dsyrk(c, c + 3, z, z + 4, f + 8, A.begin, z + 8, f + (0 if keep else 16), C.begin, z + 12)
+    z = s.sizes
+    _dsyrk(s.left, s.plain, z, z + 4, s.minus_one, A.begin, z + 8, share, C.begin, z + 12)
 
 
 AS_STORED, FIRST_TRANSPOSED, SECOND_TRANSPOSED = range(3)
 """Forms of products: A B, A^T B, A B^T."""
 
 
-@njit(cache=True)
+@part()
 def gemm(
-    form: int, m: int, n: int, k: int, A: StoredMatrix, B: StoredMatrix, keep: bool, C: StoredMatrix, s: Scratch
+    form: int, m: int, n: int, k: int, A: StoredMatrix, B: StoredMatrix, share: int, C: StoredMatrix, s: Scratch
 ) -> None:
-    """Overwrite C, (m, n), by ``[C] - A B``, one of both transposed.
+    """Overwrite C, (m, n), by ``share C - A B``, one of both transposed.
 
     Parameters
     ----------
     form : which one: `AS_STORED`, `FIRST_TRANSPOSED`, `SECOND_TRANSPOSED`
     m, n, k, A, B, C : sizes and matrices, A (m, k), B (k, n) once transposed
-    keep : whether C counts
+    share : of C that counts, a factor of `s`
     s : of the caller
     """
     s.size[0], s.size[1], s.size[2] = m, n, k
     s.size[3], s.size[4], s.size[5] = A.stride, B.stride, C.stride
-    z, c, f = s.size.ctypes.data, s.letter.ctypes.data, s.factor.ctypes.data
-    _dgemm(
-        c + (2 if form == FIRST_TRANSPOSED else 3), c + (2 if form == SECOND_TRANSPOSED else 3), z, z + 4, z + 8,
-        f + 8, A.begin, z + 12, B.begin, z + 16,
-        f + (0 if keep else 16), C.begin, z + 20,
-    )  # fmt: skip
+    first = s.transposed if form == FIRST_TRANSPOSED else s.plain
+    second = s.transposed if form == SECOND_TRANSPOSED else s.plain
+    z = s.sizes
+    _dgemm(first, second, z, z + 4, z + 8, s.minus_one, A.begin, z + 12, B.begin, z + 16, share, C.begin, z + 20)

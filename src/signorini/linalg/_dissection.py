@@ -17,9 +17,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Int32Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.linalg._graph import Graph
 
 LEAF_SIZE = 8  # vertices: pieces up to it are not cut
@@ -57,7 +57,7 @@ class Moves(NamedTuple):
     used: IntArray
 
 
-@njit(cache=True)
+@kernel()
 def dissect(graph: Graph, along: Int32Array, first: int) -> Int32Array:
     """Order the vertices of a graph so that few entries fill in.
 
@@ -78,24 +78,24 @@ def dissect(graph: Graph, along: Int32Array, first: int) -> Int32Array:
         np.zeros((2, n), np.int32), np.zeros(n, np.int32), np.empty((2, GAINS), np.int64), np.empty(entries, np.int32),
         np.empty(entries, np.int32), np.empty(room, np.int32), np.empty(room, np.int32), np.zeros(2, np.int64),
     )  # fmt: skip
-    stack = [(0, n)]
+    waiting, left = np.empty((2, n + 2), np.int64), 1  # a list of Python's takes longer to compile
+    waiting[0, 0], waiting[1, 0] = 0, n
+    sides = np.empty(2, np.int64)
     base, passed = 1, 0
-    while len(stack) > 0:
-        low, high = stack.pop()
+    while left > 0:
+        left -= 1
+        low, high = waiting[0, left], waiting[1, left]
         size = high - low
         if size <= LEAF_SIZE:
             _copy(along[0, low:high], order[low:high])
             continue
         for v in along[0, low:high]:
             label[v] = base
-        best, chosen, cut, thinner = np.inf, 0, 0, NEAR_SIDE
-        for k in range(directions if size > AXES_SIZE else first):
-            cost, where, side = _best_cut(graph, along[k, low:high], label, place, difference)
-            if cost < best:
-                best, chosen, cut, thinner = cost, k, where, side
+        many = directions if size > AXES_SIZE else first
+        chosen, cut, thinner = _cheapest(graph, along, low, high, many, label, place, difference)
         base += 1
         count = _separate(graph, along[chosen, low:high], cut, thinner, label, base, separator)
-        sides = np.array([cut, size - cut])
+        sides[NEAR_SIDE], sides[FAR_SIDE] = cut, size - cut
         sides[thinner] -= count
         for _ in range(MAX_PASSES if size > ROUGH_SIZE else 0):
             passed += 1
@@ -105,22 +105,44 @@ def dissect(graph: Graph, along: Int32Array, first: int) -> Int32Array:
             count = shorter
         _copy(separator[:count], order[high - count : high])
         near = 0
-        for k in range(directions if size > AXES_SIZE else first):
+        for k in range(many):
             near = _partition(along[k, low:high], label, base, other)
-        stack.append((low, low + near))
-        stack.append((low + near, high - count))
+        waiting[0, left], waiting[1, left] = low, low + near
+        waiting[0, left + 1], waiting[1, left + 1] = low + near, high - count
+        left += 2
         base += 3
     return order
 
 
-@njit(cache=True)
+@part()
 def _copy(source: Int32Array, target: Int32Array) -> None:
     """Element by element: the assignment of a slice takes seconds to compile, for the words of its errors."""
     for i in range(len(source)):
         target[i] = source[i]
 
 
-@njit(cache=True)
+@part()
+def _cheapest(
+    graph: Graph,
+    along: Int32Array,
+    low: int,
+    high: int,
+    many: int,
+    label: Int32Array,
+    place: Int32Array,
+    change: Int32Array,
+) -> tuple[int, int, int]:
+    """The best cut of a piece along the first directions: the direction, the vertices before it, the thinner side."""
+    best, chosen = np.inf, 0
+    cut, thinner = 0, NEAR_SIDE
+    for k in range(many):
+        cost, where, side = _best_cut(graph, along[k, low:high], label, place, change)
+        if cost < best:
+            best, chosen, cut, thinner = cost, k, where, side
+    return chosen, cut, thinner
+
+
+@part()
 def _best_cut(
     graph: Graph, line: Int32Array, label: Int32Array, place: Int32Array, change: Int32Array
 ) -> tuple[float, int, int]:
@@ -159,7 +181,7 @@ def _best_cut(
     return best, cut, side
 
 
-@njit(cache=True)
+@part()
 def _separate(
     graph: Graph, line: Int32Array, cut: int, thinner: int, label: Int32Array, base: int, separator: Int32Array
 ) -> int:
@@ -179,7 +201,7 @@ def _separate(
     return count
 
 
-@njit(cache=True)
+@part()
 def _partition(line: Int32Array, label: Int32Array, base: int, other: Int32Array) -> int:
     """Bring the near side of a piece to the front and the far one behind it, in their order; gives the near size."""
     near = far = 0
@@ -194,7 +216,7 @@ def _partition(line: Int32Array, label: Int32Array, base: int, other: Int32Array
     return near
 
 
-@njit(cache=True)
+@part()
 def _refine(
     graph: Graph,
     label: Int32Array,
@@ -217,7 +239,7 @@ def _refine(
     return left
 
 
-@njit(cache=True)
+@part()
 def _pass(
     graph: Graph, label: Int32Array, base: int, sides: IntArray, separator: Int32Array, moves: Moves, stamp: int
 ) -> int:
@@ -248,7 +270,7 @@ def _pass(
     return kept
 
 
-@njit(cache=True)
+@part()
 def _next_move(label: Int32Array, base: int, sides: IntArray, most: int, moves: Moves, stamp: int) -> tuple[int, int]:
     """The vertex whose move gains most, the smaller side first, and where it goes; -1 where nothing may move."""
     lighter = NEAR_SIDE if sides[NEAR_SIDE] <= sides[FAR_SIDE] else FAR_SIDE
@@ -266,7 +288,7 @@ def _next_move(label: Int32Array, base: int, sides: IntArray, most: int, moves: 
     return -1, NEAR_SIDE
 
 
-@njit(cache=True)
+@part()
 def _move(
     graph: Graph, label: Int32Array, base: int, v: int, side: int, sides: IntArray, moves: Moves, stamp: int
 ) -> int:
@@ -295,7 +317,7 @@ def _move(
     return growth
 
 
-@njit(cache=True)
+@part()
 def _enter(graph: Graph, label: Int32Array, base: int, v: int, moves: Moves) -> None:
     """Offer both moves of a vertex in the separator."""
     indptr, indices = graph
@@ -305,11 +327,11 @@ def _enter(graph: Graph, label: Int32Array, base: int, v: int, moves: Moves) -> 
         near += where == NEAR_SIDE
         far += where == FAR_SIDE
     moves.gain[NEAR_SIDE, v], moves.gain[FAR_SIDE, v] = 1 - far, 1 - near
-    _offer(v, NEAR_SIDE, moves)
-    _offer(v, FAR_SIDE, moves)
+    for side in range(2):
+        _offer(v, side, moves)
 
 
-@njit(cache=True)
+@part()
 def _offer(v: int, side: int, moves: Moves) -> None:
     """Put a move into its bucket; where there is no room left, it is not made."""
     entry = moves.used[0]
@@ -320,13 +342,13 @@ def _offer(v: int, side: int, moves: Moves) -> None:
         moves.used[0] += 1
 
 
-@njit(cache=True)
+@part()
 def _level(gain: int) -> int:
     """Bucket of a gain."""
     return max(0, min(GAINS - 1, 1 - gain))
 
 
-@njit(cache=True)
+@part()
 def _note(label: Int32Array, v: int, new: int, moves: Moves) -> None:
     """Relabel a vertex so that it can be undone; at most three times a vertex and pass."""
     k = moves.used[1]

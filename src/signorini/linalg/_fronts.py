@@ -12,9 +12,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, Int32Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.linalg._blas import (
     SECOND_TRANSPOSED,
     Scratch,
@@ -107,7 +107,7 @@ def factorise_whole(tree: Tree, size: tuple[int, int]) -> int:
     return failed
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def factorise_fronts(tree: Tree, begin: int, end: int, stacks: Stacks, alone: bool) -> int:
     """Factorise fronts begin to end; give -1, or the place in the order where a pivot is not positive.
 
@@ -120,9 +120,8 @@ def factorise_fronts(tree: Tree, begin: int, end: int, stacks: Stacks, alone: bo
     """
     fronts, s = tree.fronts, stacks.s
     for t in range(begin, end):
-        leaf = gather_front(tree, t, stacks)
-        a = fronts.unknown[fronts.first[t]]
-        k, r = fronts.unknown[fronts.first[t + 1]] - a, fronts.below[t]
+        leaf = _gather(tree, t, stacks)
+        a, k, r = sizes(fronts, t)
         own = fronts.side[t]
         columns = tree.made.columns.ctypes.data + 8 * fronts.panel[t]
         top_block, below = StoredMatrix(columns, k + r), StoredMatrix(columns + 8 * k, k + r)
@@ -131,14 +130,14 @@ def factorise_fronts(tree: Tree, begin: int, end: int, stacks: Stacks, alone: bo
             return int(a + failed - 1)
         if r == 0:
             continue
-        trsm(True, True, r, k, top_block, below, s)
+        trsm(s.right, s.transposed, r, k, top_block, below, s)
         left = StoredMatrix(stacks.left[own].ctypes.data + 8 * stacks.top[own], r)
-        syrk(r, k, below, not leaf, left, s)
-        leave_front(tree, t, stacks, alone)
+        syrk(r, k, below, s.zero if leaf else s.one, left, s)
+        _leave(tree, t, stacks, alone)
     return -1
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def gather_front(tree: Tree, t: int, stacks: Stacks) -> bool:
     """Gather front t from K and what its children left; give whether it has no children.
 
@@ -147,10 +146,15 @@ def gather_front(tree: Tree, t: int, stacks: Stacks) -> bool:
     tree, t : the front
     stacks : without what its children left, afterwards; what it leaves, begun, lies on top
     """
+    return _gather(tree, t, stacks)
+
+
+@part()
+def _gather(tree: Tree, t: int, stacks: Stacks) -> bool:
+    """See `gather_front`, which Python calls."""
     fronts, (factor, _, diagonal) = tree.fronts, tree.made
     local, target, waiting = stacks.local, stacks.target, stacks.waiting
-    a = fronts.unknown[fronts.first[t]]
-    k, r = fronts.unknown[fronts.first[t + 1]] - a, fronts.below[t]
+    a, k, r = sizes(fronts, t)
     ld = k + r
     panel = factor[fronts.panel[t] : fronts.panel[t + 1]]
     panel[:] = 0.0
@@ -180,7 +184,7 @@ def gather_front(tree: Tree, t: int, stacks: Stacks) -> bool:
     return leaf
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def leave_front(tree: Tree, t: int, stacks: Stacks, alone: bool) -> None:
     """Leave what is left of front t on its stack, or add it to the condensed matrix.
 
@@ -190,8 +194,14 @@ def leave_front(tree: Tree, t: int, stacks: Stacks, alone: bool) -> None:
     stacks : what is left lies on top of
     alone : whether it waits though it has no parent
     """
+    _leave(tree, t, stacks, alone)
+
+
+@part()
+def _leave(tree: Tree, t: int, stacks: Stacks, alone: bool) -> None:
+    """See `leave_front`, which Python calls."""
     fronts = tree.fronts
-    own, r = fronts.side[t], fronts.below[t]
+    own, (_, _, r) = fronts.side[t], sizes(fronts, t)
     if fronts.parent[t] == -1 and not alone:
         left = stacks.left[own][stacks.top[own] : stacks.top[own] + r * r]
         inside = len(tree.elimination.order) - len(tree.slot)
@@ -205,7 +215,7 @@ def leave_front(tree: Tree, t: int, stacks: Stacks, alone: bool) -> None:
         stacks.number[own] += 1
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def eliminate_tile(block: tuple[int, int], rows: tuple[int, int], columns: StoredMatrix, s: Scratch) -> int:
     """Eliminate columns of a front from a tile of its rows, left to right; give 0, or the 1-based column that failed.
 
@@ -224,14 +234,14 @@ def eliminate_tile(block: tuple[int, int], rows: tuple[int, int], columns: Store
     if first > 0:
         done = StoredMatrix(columns.begin + 8 * begin, columns.stride)
         beside = StoredMatrix(columns.begin + 8 * first, columns.stride)
-        gemm(SECOND_TRANSPOSED, height, width, first, done, beside, True, own, s)
+        gemm(SECOND_TRANSPOSED, height, width, first, done, beside, s.one, own, s)
     if begin == first:
         return potrf(width, pivot, s)
-    trsm(True, True, height, width, pivot, own, s)
+    trsm(s.right, s.transposed, height, width, pivot, own, s)
     return 0
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def leave_tile(
     tile: tuple[int, int], k: int, columns: StoredMatrix, keep: bool, left: StoredMatrix, s: Scratch
 ) -> None:
@@ -248,14 +258,27 @@ def leave_tile(
     first, width = tile
     r = columns.stride - k
     own = StoredMatrix(columns.begin + 8 * (k + first), columns.stride)
-    syrk(width, k, own, keep, StoredMatrix(left.begin + 8 * first * (r + 1), r), s)
+    share = s.one if keep else s.zero
+    syrk(width, k, own, share, StoredMatrix(left.begin + 8 * first * (r + 1), r), s)
     if first + width < r:
         below = StoredMatrix(own.begin + 8 * width, columns.stride)
         rest = StoredMatrix(left.begin + 8 * (first * (r + 1) + width), r)
-        gemm(SECOND_TRANSPOSED, r - first - width, width, k, below, own, keep, rest, s)
+        gemm(SECOND_TRANSPOSED, r - first - width, width, k, below, own, share, rest, s)
 
 
-@njit(cache=True)
+@part()
+def sizes(fronts: Fronts, t: int) -> tuple[int, int, int]:
+    """First unknown of a front, how many it eliminates and how many are below it.
+
+    Parameters
+    ----------
+    fronts, t : which one
+    """
+    a = np.int64(fronts.unknown[fronts.first[t]])
+    return int(a), int(fronts.unknown[fronts.first[t + 1]] - a), int(np.int64(fronts.below[t]))
+
+
+@part()
 def list_below(fronts: Fronts, t: int, below: Int32Array) -> None:
     """List the unknowns below front t.
 
@@ -271,7 +294,7 @@ def list_below(fronts: Fronts, t: int, below: Int32Array) -> None:
             at += 1
 
 
-@njit(cache=True)
+@part()
 def _list_rows(fronts: Fronts, t: int, local: Int32Array, target: Int32Array) -> None:
     """List where the unknowns below front t stand in its parent."""
     list_below(fronts, t, target)
@@ -279,7 +302,7 @@ def _list_rows(fronts: Fronts, t: int, local: Int32Array, target: Int32Array) ->
         target[i] = local[target[i]]
 
 
-@njit(cache=True)
+@part()
 def _add_matrix(K: Rows, elimination: Elimination, a: int, k: int, local: Int32Array, panel: Array, ld: int) -> None:
     """Add the entries of K on and below the diagonal to the columns of a front."""
     (indptr, indices, data), (order, place) = K, elimination
@@ -290,7 +313,7 @@ def _add_matrix(K: Rows, elimination: Elimination, a: int, k: int, local: Int32A
                 panel[j * ld + local[i]] += data[p]
 
 
-@njit(cache=True)
+@part()
 def _list_runs(target: Int32Array, runs: Int32Array) -> int:
     """List where rows that stand one below the other in the parent begin; gives how many runs there are."""
     size = len(target)
@@ -303,7 +326,7 @@ def _list_runs(target: Int32Array, runs: Int32Array) -> int:
     return number
 
 
-@njit(cache=True)
+@part()
 def _extend_add(
     left: Array, target: Int32Array, runs: Int32Array, k: int, panel: Array, ld: int, work: Array, r: int
 ) -> None:
@@ -323,7 +346,7 @@ def _extend_add(
                     sums[i] += rows[i]
 
 
-@njit(cache=True)
+@part()
 def _add_condensed(work: Array, target: Int32Array, r: int, condensed: Array) -> None:
     """Add a lower triangle, (r, r) by columns, to the upper one of the condensed matrix: along its rows."""
     for c in range(r):
@@ -336,7 +359,7 @@ def _add_condensed(work: Array, target: Int32Array, r: int, condensed: Array) ->
                 condensed[u, v] += work[c * r + i]
 
 
-@njit(cache=True, nogil=True)
+@kernel(nogil=True)
 def add_interface(K: Rows, elimination: Elimination, slot: Int32Array, condensed: Array) -> None:
     """Add K_cc to the condensed matrix and mirror its upper triangle.
 

@@ -6,9 +6,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, Int32Array, IntArray
+from signorini.compilation import kernel, part
 
 
 class Graph(NamedTuple):
@@ -54,7 +54,7 @@ class Elimination(NamedTuple):
     place: Int32Array
 
 
-@njit(cache=True)
+@kernel()
 def quotient(graph: Graph, start: Int32Array, member: Int32Array, group: Int32Array) -> Graph:
     """Merge the vertices of every group: the graph of the groups, without loops.
 
@@ -88,7 +88,7 @@ def quotient(graph: Graph, start: Int32Array, member: Int32Array, group: Int32Ar
     return Graph(rows, columns[:top].copy())
 
 
-@njit(cache=True)
+@kernel()
 def both_ways(graph: Graph) -> Graph:
     """Complete a graph of which some edges lead one way only; the same graph where none does."""
     indptr, indices = graph
@@ -121,7 +121,7 @@ def both_ways(graph: Graph) -> Graph:
     return graph if here == len(indices) else Graph(rows, columns[:here].copy())
 
 
-@njit(cache=True)
+@kernel()
 def subgraph(graph: Graph, count: int) -> Graph:
     """Keep the first `count` vertices and the edges between them."""
     indptr, indices = graph
@@ -137,7 +137,7 @@ def subgraph(graph: Graph, count: int) -> Graph:
     return Graph(rows, columns[:top].copy())
 
 
-@njit(cache=True)
+@part()
 def sort_lists(begin: IntArray, entry: Int32Array, vertices: int) -> None:
     """Sort every list ``entry[begin[s]:begin[s + 1]]`` of vertices: by buckets, in linear time."""
     first = np.zeros(vertices + 1, np.int64)

@@ -8,12 +8,12 @@ the columns ``indices[...]``. A tuple of d items tells the compiler how long the
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, Int32Array
+from signorini.compilation import kernel
 
 
-@njit(cache=True)
+@kernel()
 def sweep_from_zero(
     block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, inverses: Array, b: Array
 ) -> tuple[Array, Array]:
@@ -58,7 +58,7 @@ def sweep_from_zero(
     return x, residual
 
 
-@njit(cache=True)
+@kernel()
 def sweep_back(
     block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, inverses: Array, b: Array, x: Array
 ) -> None:

@@ -13,13 +13,13 @@ Ashcraft, Grimes (1989), The influence of relaxed supernode partitions on the mu
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, Int32Array, IntArray
+from signorini.compilation import kernel
 from signorini.linalg._graph import Elimination, Graph, sort_lists
 
 
-@njit(cache=True)
+@kernel()
 def elimination_tree(graph: Graph, elimination: Elimination, interior: int) -> Int32Array:
     """Give the parent of every interior vertex, -1 where none is left inside (Liu's path compression).
 
@@ -43,7 +43,7 @@ def elimination_tree(graph: Graph, elimination: Elimination, interior: int) -> I
     return parent
 
 
-@njit(cache=True)
+@kernel()
 def postorder(parent: Int32Array) -> Int32Array:
     """List the vertices of the forest so that every subtree is contiguous and ends with its root."""
     count = len(parent)
@@ -74,7 +74,7 @@ def postorder(parent: Int32Array) -> Int32Array:
     return post
 
 
-@njit(cache=True)
+@kernel()
 def column_counts(graph: Graph, elimination: Elimination, parent: Int32Array) -> Int32Array:
     """Count the vertices in every column of the factor, its own included, by walking the row subtrees.
 
@@ -101,7 +101,7 @@ def column_counts(graph: Graph, elimination: Elimination, parent: Int32Array) ->
     return count
 
 
-@njit(cache=True)
+@kernel()
 def supernodes(parent: Int32Array, count: Int32Array, relax: tuple[int, float, int, float, float]) -> Int32Array:
     """Join columns of equal structure, then parents with children where few zeros are stored for it.
 
@@ -144,7 +144,7 @@ def supernodes(parent: Int32Array, count: Int32Array, relax: tuple[int, float, i
     return first[: top + 2].copy()
 
 
-@njit(cache=True)
+@kernel()
 def front_rows(
     graph: Graph, elimination: Elimination, first: Int32Array, count: Int32Array
 ) -> tuple[IntArray, Int32Array, Int32Array]:
@@ -200,7 +200,7 @@ def front_rows(
     return begin, rows, parent
 
 
-@njit(cache=True)
+@kernel()
 def sides(parent: Int32Array) -> Int32Array:
     """Give 0 or 1 in turns from the roots of a postordered forest down."""
     side = np.zeros(len(parent), np.int32)
@@ -210,7 +210,7 @@ def sides(parent: Int32Array) -> Int32Array:
     return side
 
 
-@njit(cache=True)
+@kernel()
 def stack_peaks(parent: Int32Array, side: Int32Array, size: IntArray) -> tuple[int, int]:
     """Give the largest number of entries on either stack: what waits for its parent, and what is just made.
 
@@ -236,7 +236,7 @@ def stack_peaks(parent: Int32Array, side: Int32Array, size: IntArray) -> tuple[i
     return int(peak[0]), int(peak[1])
 
 
-@njit(cache=True)
+@kernel()
 def subtrees(parent: Int32Array, work: Array) -> tuple[Int32Array, Array]:
     """Give the first front and the work of the subtree below every front, its own included.
 

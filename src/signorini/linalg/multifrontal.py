@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -34,7 +35,8 @@ from signorini.linalg.threads import one_thread
 
 def compiled() -> bool:
     """Whether compiled loops are on disk, where the first factorisation after an installation leaves them."""
-    return any(Path(_fronts.factorise_fronts.stats.cache_path or ".").glob("_fronts.factorise_fronts-*.nbi"))
+    loop: Any = _fronts.factorise_fronts
+    return any(Path(loop.stats.cache_path or ".").glob("_fronts.factorise_fronts-*.nbi"))
 
 
 @dataclass(frozen=True, kw_only=True)

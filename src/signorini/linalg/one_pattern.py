@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from numba import njit
 
 from signorini.arrays import Array, Int32Array, IntArray
+from signorini.compilation import kernel
 
 _LACKING = -1  # place of an entry that the pattern lacks
 
@@ -55,7 +55,7 @@ def _with(K: sp.csr_array, row: IntArray, column: IntArray) -> sp.csr_array:
     return sp.csr_array((np.insert(K.data, at, 0.0), np.insert(K.indices, at, beside), indptr), shape=K.shape)
 
 
-@njit(cache=True)
+@kernel()
 def _images(
     begin: Int32Array,
     column: Int32Array,
@@ -87,7 +87,7 @@ def _images(
     return place, value, first
 
 
-@njit(cache=True)
+@kernel()
 def _absent(
     begin: Int32Array, column: Int32Array, T_begin: Int32Array, T_column: Int32Array, place: Int32Array
 ) -> tuple[IntArray, IntArray]:

@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from numba import njit
-
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 
 
-@njit(cache=True)
+@kernel()
 def add_strains(cells: IntArray, gradients: Array, u: Array, d: int, out: Array) -> None:
     """Add the strains of displacements at the points of a group of cells.
 
@@ -42,7 +41,7 @@ def add_strains(cells: IntArray, gradients: Array, u: Array, d: int, out: Array)
                     s[2] += g[a, 2] * u[at]
 
 
-@njit(cache=True)
+@kernel()
 def add_forces(cells: IntArray, gradients: Array, weights: Array, stress: Array, d: int, out: Array) -> None:
     """Add the nodal forces ``sum_q w B^T sigma`` of stresses at the points of a group of cells.
 
@@ -76,7 +75,7 @@ def add_forces(cells: IntArray, gradients: Array, weights: Array, stress: Array,
                     out[at + 2] += w * (g[a, 2] * s[2] + g[a, 1] * s[4] + g[a, 0] * s[5])
 
 
-@njit(cache=True)
+@part()
 def strain_rows(g: Array, d: int, B: Array) -> None:
     """B of one point: strains of the displacements of its cell.
 

@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.compilation import kernel
 from signorini.model.material import Elastic, Material
 from signorini.model.model import Model
 from signorini.model.plastic import Plastic
@@ -146,7 +147,7 @@ def stress_in_tables(
     return low + slope * (p - strain[body, i]), slope
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def yield_stresses(laws: YieldLaws, body: IntArray, p: Array, level: Array) -> Array:
     """(p,) Yield stress at points.
 

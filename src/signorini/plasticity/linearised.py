@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.plasticity.laws import YieldLaws, stress_in_tables
 from signorini.plasticity.radial_return import ROOT23, Points
 
 
-@njit(cache=True)
+@part()
 def taken(laws: YieldLaws, body: int, point: Points, i: int, dual: Array, left: float, M: Array) -> None:
     """M, what yielding takes off the elastic law at point i: ``2 G (1 - left) (a I_dev + b sym(s n^T))``.
 
@@ -51,7 +51,7 @@ def taken(laws: YieldLaws, body: int, point: Points, i: int, dual: Array, left: 
         M[r, 2], M[2, r] = 0.0, 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def dual_stress(
     laws: YieldLaws, body: IntArray, level: Array, old: Points, model: Points, dual: Array, new: Points, out: Array
 ) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel
 from signorini.plasticity.bodies import YieldingBodies
 from signorini.plasticity.laws import Heat, YieldLaws, yield_stresses
 from signorini.plasticity.radial_return import ROOT32
@@ -224,7 +225,7 @@ def _relative_at(strain: Array, plastic: Array, back: Array, shear: float, i: in
     return float(np.sqrt(square))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def _relative(strain: Array, plastic: Array, back: Array, shear: Array, body: IntArray) -> Array:
     """(p, n) Relative stresses.
 
@@ -240,7 +241,7 @@ def _relative(strain: Array, plastic: Array, back: Array, shear: Array, body: In
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def _sizes(strain: Array, plastic: Array, back: Array, shear: Array, body: IntArray) -> Array:
     """(p,) Sizes of the relative stresses, see `_relative`."""
     room, out = np.empty(strain.shape[1]), np.empty(len(body))
@@ -249,7 +250,7 @@ def _sizes(strain: Array, plastic: Array, back: Array, shear: Array, body: IntAr
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def _lacks(
     laws: YieldLaws, body: IntArray, relative: Array, limit: Array, old: Flowed, new: Flowed
 ) -> tuple[float, float, float, float]:

@@ -20,9 +20,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.plasticity.bracket import Bracket, narrowed, secant
 from signorini.plasticity.kernels import strain_rows
 from signorini.plasticity.laws import Heat, YieldLaws
@@ -75,7 +75,7 @@ def eliminated(gradients: Array, modes: Array, weights: Array, law: Array) -> Mo
     return Modes(gradients=modes, share=inverse @ coupling, stiffness=stiffness, inverse=inverse)
 
 
-@njit(cache=True)
+@kernel()
 def _couple(gradients: Array, modes: Array, weights: Array, law: Array, stiffness: Array, coupling: Array) -> None:
     """K_aa, (m, i, i), and K_au, (m, i, d k), added to zeros; arguments as of `eliminated`."""
     m, points, k, _ = gradients.shape
@@ -100,7 +100,7 @@ def _couple(gradients: Array, modes: Array, weights: Array, law: Array, stiffnes
                         coupling[c, x, y] += B[r, y] * DG[r, x]
 
 
-@njit(cache=True)
+@part()
 def factor(A: Array) -> bool:
     """Overwrite the lower triangle of A by its Cholesky factor; whether it has one."""
     for j in range(len(A)):
@@ -118,7 +118,7 @@ def factor(A: Array) -> bool:
     return True
 
 
-@njit(cache=True)
+@part()
 def softened(stiffness: Array, loss: Array, out: Array) -> None:
     """Factorise K_aa less what yielding takes off; where nothing resists some mode a little of that is left.
 
@@ -136,7 +136,7 @@ def softened(stiffness: Array, loss: Array, out: Array) -> None:
             return
 
 
-@njit(cache=True)
+@part()
 def substitute(L: Array, x: Array) -> None:
     """Overwrite x by ``(L L^T)^-1 x``; L is a lower triangle."""
     for i in range(len(x)):
@@ -172,7 +172,7 @@ class _Cell(NamedTuple):
     stiffness: Array
 
 
-@njit(cache=True, error_model="numpy")
+@part(error_model="numpy")
 def _imbalance(
     laws: YieldLaws, heat: Heat, cell: _Cell, old: Points, new: Points, a: Array, h: Array, room: Array
 ) -> None:
@@ -198,7 +198,7 @@ def _imbalance(
                 h[x] += cell.weights[q] * stress * cell.G[q, r, x]
 
 
-@njit(cache=True)
+@part()
 def _find_loss(laws: YieldLaws, cell: _Cell, new: Points, M: Array, loss: Array) -> None:
     """What yielding takes off the stiffness of the modes, ``sum_q w G^T M G``, into ``loss``; M is room."""
     n, count = cell.base.shape[1], len(loss)
@@ -217,7 +217,7 @@ def _find_loss(laws: YieldLaws, cell: _Cell, new: Points, M: Array, loss: Array)
                     loss[y, x] += cell.weights[q] * cell.G[q, r, y] * value
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def settle(
     laws: YieldLaws,
     body: IntArray,

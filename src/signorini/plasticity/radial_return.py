@@ -17,6 +17,7 @@ import numpy as np
 from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.compilation import kernel, part
 from signorini.plasticity.laws import Heat, YieldLaws, stress_in_row, yield_stress_at
 
 ROOT23, ROOT32 = np.sqrt(2.0 / 3.0), np.sqrt(1.5)
@@ -147,7 +148,7 @@ def _return(
             new.back[i, k, c] = theta * (old.back[i, k, c] + step)
 
 
-@njit(cache=True, error_model="numpy")
+@part(error_model="numpy")
 def _stay(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Points, stays: BoolArray) -> None:
     """Which points stay elastic, and their states: most of them, so without a call for each."""
     strain, plastic, back = new.strain, old.plastic, old.back
@@ -168,7 +169,7 @@ def _stay(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Point
         stays[i] = np.sqrt(norm) <= ROOT23 * stress * (1.0 + _RETURN_TOL)
 
 
-@njit(cache=True, error_model="numpy")
+@part(error_model="numpy")
 def _without_back_stresses(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Points) -> None:
     """The states of all points where yield stresses alone harden: exact row by row, without a call for each point."""
     strain, plastic, direction, slack = new.strain, new.plastic, new.direction, new.slack
@@ -258,7 +259,7 @@ def respond_at(
         e[2] = following
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def respond(laws: YieldLaws, body: IntArray, heat: Heat, old: Points, new: Points) -> None:
     """The state of every point at the strains of the new one, from the old state; plane stress finds the strain across.
 

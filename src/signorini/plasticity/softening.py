@@ -12,9 +12,9 @@ stress across vanish.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.fem._kernels import scatter
 from signorini.plasticity.kernels import strain_rows
 from signorini.plasticity.laws import YieldLaws
@@ -23,7 +23,7 @@ from signorini.plasticity.modes import Modes, softened
 from signorini.plasticity.radial_return import Points
 
 
-@njit(cache=True)
+@kernel()
 def soften(
     cells: IntArray,
     shape: tuple[Array, Array, Modes],
@@ -102,7 +102,7 @@ def soften(
         scatter(K, cells[c], d, rows, columns, data)
 
 
-@njit(cache=True)
+@part()
 def _subtract_product(G: Array, X: Array, B: Array) -> None:
     """Subtract ``G X`` from B."""
     for r in range(len(G)):
@@ -113,7 +113,7 @@ def _subtract_product(G: Array, X: Array, B: Array) -> None:
                     B[r, y] -= part * X[x, y]
 
 
-@njit(cache=True)
+@part()
 def _add_given_way(L: Array, C: Array, K: Array) -> None:
     """Add ``C^T (L L^T)^-1 C`` to K; C becomes ``L^-1 C``."""
     for x in range(len(C)):

@@ -7,9 +7,9 @@ Slow and hardly ever lost: it brings Newton's method near where that cycles.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel
 from signorini.friction.problem import ContactProblem
 from signorini.law.section import nearest_point
 
@@ -17,7 +17,7 @@ _LOCAL_STEPS = 30  # of the fixed point of one pair
 _SETTLED = 1e-14  # of its forces: a change that is rounding
 
 
-@njit(cache=True)
+@kernel()
 def _sweep(
     A: Array, c: Array, axes: Array, slopes: Array, starts: Array, facets: IntArray, step: Array, r: Array, count: int
 ) -> None:
