@@ -6,6 +6,7 @@
 "true" is the error against the same model asked for far more, of the ball against Hertz' pressure. "ratio" is the
 estimate over it, "work" the CPU seconds of all meshes and estimates over those of the last mesh alone, its estimate
 left out, and "uniform" the nodes that a mesh needs whose cells are all halved, again and again, for the same error.
+Outputs by name have a table of their own.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from signorini.gallery import coarse
 from signorini.meshing.simplices import Simplices
 from signorini.model.accuracy import Accuracy
 from signorini.model.model import Model
+from signorini.model.outputs import Output, force, halfwidth, pressure
 from signorini.plot.accuracy import draw_accuracy
 from signorini.plot.picture_data import PictureData
 from signorini.solved import Solution
@@ -32,9 +34,20 @@ DOCUMENT = Path(__file__).parent.parent / "docs" / "accuracy.md"
 PICTURE = DOCUMENT.parent / "figures" / "accuracy.png"
 HEAD = ("problem", "asked, %", "nodes", "meshes", "estimated, %", "true, %", "ratio", "work", "uniform")
 ASKED = (0.03, 0.01, 0.003)
-IN_SPACE = (0.1, 0.05)
+IN_SPACE = (0.1, 0.05, 0.03, 0.01)
 FINEST = 60_000
-"""Nodes of the finest meshes but those of references."""
+"""Nodes of the finest meshes but those of references, and of the ball."""
+FINEST_BALL = 200_000
+OUTPUT_HEAD = ("problem", "output", "asked, %", "nodes", "estimated, %", "true, %", "ratio")
+OUTPUTS: tuple[tuple[str, Callable[[], Model], Output], ...] = (
+    ("the paper's cylinder", coarse.cylinder, pressure("seat").peak),
+    ("the paper's cylinder", coarse.cylinder, halfwidth("seat", about=(0.0, 0.0))),
+    ("the paper's cylinder", coarse.cylinder, force("seat", along=(1.0, 0.0), of="friction")),
+    ("two cylinders, friction 0.3", coarse.two_cylinders, pressure("seat").peak),
+    ("two cylinders, friction 0.3", coarse.two_cylinders, force("seat", along=(0.0, 1.0))),
+    ("rounded punch, friction 0.3", coarse.rounded_punch, pressure("seat").peak),
+    ("rounded punch, friction 0.3", coarse.rounded_punch, force("seat", along=(0.0, 1.0))),
+)
 
 PLANE: dict[str, tuple[str, Callable[[], Model]]] = {
     "Hertz, line": ("hertz", coarse.hertz_line),
@@ -67,18 +80,24 @@ def main() -> None:
         "energy",
         lambda found: abs(found.last.strain_energy / fine - 1) ** 0.5,
     )
-    rows += measured("Hertz, point, in space", coarse.ball, IN_SPACE, "pressure", point_error)
+    rows += measured("Hertz, point, in space", coarse.ball, IN_SPACE, "pressure", point_error, FINEST_BALL)
     ratios = np.array([float(row[6]) for row in rows])
     kept = sum(float(row[5]) <= float(row[1]) for row in rows)
     text = page.table(HEAD, rows)
     text += f"\n\n{kept} of {len(rows)} below what was asked for; ratios {ratios.min():.2f} to {ratios.max():.2f}."
     command.publish(options, "accuracy", text, DOCUMENT)
+    command.publish(options, "outputs", page.table(OUTPUT_HEAD, outputs()), DOCUMENT)
     if not options.dry:
         draw_accuracy(PictureData(solve(coarse.cylinder(), accuracy=0.01))).savefig(PICTURE, dpi=110)
 
 
 def measured(
-    name: str, pose: Callable[[], Model], asked: tuple[float, ...], of: str, true: Callable[[Solution], float]
+    name: str,
+    pose: Callable[[], Model],
+    asked: tuple[float, ...],
+    of: str,
+    true: Callable[[Solution], float],
+    nodes: int = FINEST,
 ) -> list[tuple[object, ...]]:
     """Rows of a problem.
 
@@ -88,26 +107,44 @@ def measured(
     asked : errors that are asked for
     of : what is to be accurate
     true : error of a solution
+    nodes : at most
     """
     uniform = uniformly(pose(), true)
     rows = []
     for error in asked:
-        seconds, found = command.cpu(lambda error=error: solve(pose(), accuracy=Accuracy(error, of=of, nodes=FINEST)))
+        seconds, found = command.cpu(lambda error=error: solve(pose(), accuracy=Accuracy(error, of=of, nodes=nodes)))
         last = command.cpu(lambda found=found: solve(found.model))[0]
         result, exact = found.accuracy, true(found)
         assert result is not None
         estimate = getattr(result, of)
-        nodes = f"{result.levels[-1].nodes}" if result.met else f"{result.levels[-1].nodes} (most)"
+        told = f"{result.levels[-1].nodes}" if result.met else f"{result.levels[-1].nodes} (most)"
         row = (
             name.strip(),
             f"{100 * error:g}",
-            nodes,
+            told,
             len(result.levels),
             f"{100 * estimate:.2f}",
             f"{100 * exact:.2f}",
         )
         rows.append((*row, f"{estimate / exact:.2f}", f"{seconds / last:.1f}", needed(uniform, error)))
         print(*rows[-1], sep=" | ", flush=True)
+    return rows
+
+
+def outputs() -> list[tuple[object, ...]]:
+    """Rows of outputs: beside the same asked for far more."""
+    rows: list[tuple[object, ...]] = []
+    for name, pose, output in OUTPUTS:
+        fine = solve(pose(), accuracy=Accuracy(2e-5, of=output, nodes=120_000)).accuracy
+        for error in (0.01, 0.001):
+            found = solve(pose(), accuracy=Accuracy(error, of=output, nodes=FINEST)).accuracy
+            assert fine is not None
+            assert found is not None
+            exact = abs(found.value / fine.value - 1.0)
+            nodes = f"{found.levels[-1].nodes}{'' if found.met else ' (most)'}"
+            told = f"{100 * found.output:.3f}", f"{100 * exact:.3f}", f"{found.output / exact:.1f}"
+            rows.append((name, output, f"{100 * error:g}", nodes, *told))
+            print(*rows[-1], sep=" | ", flush=True)
     return rows
 
 

@@ -179,10 +179,9 @@ def test_what_is_no_accuracy_is_refused(given, words):
 def test_models_that_are_not_refined_are_named():
     model = hertz()
     worn = replace(model, contacts=[replace(model.contacts[0], friction=0.3, wear=sg.Wear(1e-8))])
-    warm = sg.Load("block", temperature=np.zeros(len(model.mesh.points)))
-    steel = sg.Elastic(E=E, nu=NU, expansion=1e-5)
-    by_nodes = replace(model, bodies=[sg.Body("block", steel)], loads=[warm])
-    for wrong, words in ((worn, "contacts that wear"), (by_nodes, "values given node by node")):
+    corner = sg.Load((0.0, 0.0), nodal_forces=[(0.0, 1.0)])
+    by_nodes = replace(model, loads=[corner])
+    for wrong, words in ((worn, "contacts that wear"), (by_nodes, "forces given node by node")):
         with pytest.raises(sg.InputError, match=f"accuracy: does not know {words}"):
             sg.solve(wrong, accuracy=0.1)
     with pytest.raises(sg.InputError, match="tape: belongs to one mesh"):

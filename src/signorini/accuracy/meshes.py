@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.accuracy.curves import curves_of
+from signorini.accuracy.node_values import CarriedValues, has_node_values
 from signorini.arrays import Array, IntArray
 from signorini.meshing.simplices import Curve, Simplices
 from signorini.model.accuracy import Accuracy
@@ -52,26 +53,32 @@ class RefinedMeshes:
                 f"{' and '.join(cut)} cells are cut into quadratic {kind}, which are halved where they lack",
             )
         self.simplices = Simplices.of(mesh)
+        self._values = CarriedValues(model, self.simplices) if has_node_values(model) else None
 
     def first(self) -> Model:
         """On the simplices of the mesh that was given."""
-        bodies = [
-            replace(body, formulation=None) if body.formulation == "incompatible" else body
-            for body in self._model.bodies
-        ]
-        self._model = replace(self._model, bodies=bodies, mesh=self.simplices.mesh(self._order, self._curves))
-        return self._model
+        return self._posed()
 
-    def next(self, squares: Array, growth: float) -> Model:
+    def next(self, weights: Array, growth: float) -> Model:
         """On simplices refined where errors are.
 
         Parameters
         ----------
-        squares : (m,) of the errors of the cells
+        weights : (m,) squares of the errors of the cells, or what these count for
         growth : of the number of cells, > 1
         """
-        self.simplices = grown(self.simplices, squares, growth, self._curves)
-        return replace(self._model, mesh=self.simplices.mesh(self._order, self._curves))
+        self.simplices = grown(self.simplices, weights, growth, self._curves)
+        if self._values is not None:
+            self._values.refine(self.simplices)
+        return self._posed()
+
+    def _posed(self) -> Model:
+        mesh = self.simplices.mesh(self._order, self._curves)
+        model = replace(self._model, mesh=mesh) if self._values is None else self._values.on(mesh)
+        bodies = [
+            replace(body, formulation=None) if body.formulation == "incompatible" else body for body in model.bodies
+        ]
+        return replace(model, bodies=bodies)
 
 
 def grown(simplices: Simplices, squares: Array, growth: float, curves: dict[str, Curve]) -> Simplices:

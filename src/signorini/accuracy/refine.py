@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +17,6 @@ from signorini.errors import InputError
 from signorini.model.accuracy import Accuracy, Asked
 from signorini.model.model import Model
 from signorini.model.outputs import Output
-from signorini.model.varying import NodeValues
 from signorini.solution.accuracy import AccuracyResult, MeshLevel
 from signorini.solution.history import History
 
@@ -131,26 +130,11 @@ def refuse(model: Model, *, whole: bool = False) -> None:
         found += [("bolts", bool(model.bolts)), ("cyclic symmetries", bool(model.cyclic_symmetries))]
         found += [
             ("equations", bool(model.equations)),
-            ("forces given node by node", any(_by_nodes(load.nodal_forces) for load in model.loads)),
+            ("forces given node by node", any(load.nodal_forces is not None for load in model.loads)),
         ]
-        found += [("values given node by node", any(map(_by_nodes, _varying(model))))]
     for name, there in found:
         if there:
             raise InputError(f"does not know {name}; expected a model without", where=("accuracy",))
-
-
-def _varying(model: Model) -> Iterator[object]:
-    """All that may be given node by node."""
-    for load in model.loads:
-        yield from (load.temperature, load.pressure, load.traction)
-    for support in model.supports:
-        yield from support.u
-    for contact in model.contacts:
-        yield from (contact.gap, contact.interference)
-
-
-def _by_nodes(value: object) -> bool:
-    return isinstance(value, np.ndarray | NodeValues)
 
 
 def _known(number: float | None) -> float | None:

@@ -190,6 +190,11 @@ class Simplices:
         return Mesh(points=points, cells=cells, bodies=self.bodies, boundaries=facets, nodes=nodes)
 
 
+def edge_corners(corners: int) -> IntArray:
+    """(e, 2) Which corners of a simplex its edges join, in the order of their middle nodes."""
+    return np.array(_EDGES[corners])
+
+
 def corner_numbers(mesh: Mesh) -> IntArray:
     """(n,) Of the nodes of a mesh among those that simplices keep: corners, and nodes of no cell; -1 of others."""
     inside = among(mesh.cells.values(), len(mesh.points))
