@@ -99,6 +99,12 @@ MISTAKES = {
         "",
         ":26: contact[0]: has no 'nonmortar'; expected it",
     ),
+    "rigid shape as a side": (
+        "plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\n",
+        "mortar = { plane = { point = [0.0, 0.0], normal = [0.0, 1.0] } }\n",
+        ":28: contact[0].mortar: is a table; expected the name of a boundary or obstacle; a rigid shape stands in its "
+        "place, as plane = { ... }",
+    ),
     "contact with nothing": (
         "plane = { point = [0.0, 0.0], normal = [0.0, 1.0] }\n",
         "",

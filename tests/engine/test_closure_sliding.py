@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import signorini as sg
-from signorini.gallery.closures import GASKET
+from signorini.gallery.closures import GASKET, worn_layer
 
 RADIUS, DEPTH, STROKE = 20.0, 0.03, 0.3
 STEEP = 12000.0  # pressure per closure: beyond the steepest line of the gasket
@@ -56,30 +56,6 @@ def test_a_bed_that_slides_over_a_circle_has_the_pressures_of_its_table(unloadin
         assert abs(step.released) < 1e-6 * step.work
 
 
-def worn_layer(table, *, cycles, sliding):
-    """A block, of modulus 1e5 and height 1/2, held down by 0.03 on a layer, and rubbed to and fro by 1 in a cycle."""
-    return sg.Model(
-        sg.rectangle(width=2.0, height=0.5, nx=1, ny=1),
-        kind="plane strain",
-        bodies=[sg.Body("block", sg.Elastic(E=1e5, nu=0.0))],
-        supports=[sg.Support("top", u=(None, -0.03), name="press"), sg.Support("top", u=(0.5, None), name="drive")],
-        contacts=[
-            sg.Contact(
-                "bottom",
-                sg.Plane((0, 0), (0, 1)),
-                closure=sg.Closure(table),
-                sliding=sliding,
-                wear=sg.Wear(1e-3),
-                name="sole",
-            )
-        ],
-        steps=[
-            sg.Step(scale={"press": 1.0, "drive": 0.0}, path="exact"),
-            sg.Step(scale={"drive": [1.0, 0.0]}, repeat=cycles, path="exact"),
-        ],
-    )
-
-
 @pytest.mark.parametrize("sliding", ["small", "finite"])
 def test_pressures_of_a_layer_that_wears_decay(sliding):
     """From cycle to cycle by k p, on every line of its own: in series with the block, whose compliance is 5e-6."""
@@ -105,8 +81,7 @@ def test_pressures_of_a_layer_that_wears_in_small_cycles_decay_exponentially():
     """``p = p_0 exp(- k s / c)`` with the compliance c of the layer and the block, as cycles become short."""
     left = []
     for cycles in (10, 20):
-        model = worn_layer([(0.0, 0.0), (0.02, 4.0)], cycles=cycles, sliding="small")
-        model = replace(model, supports=[model.supports[0], replace(model.supports[1], u=(5.0 / cycles, None))])
+        model = worn_layer([(0.0, 0.0), (0.02, 4.0)], cycles=cycles, sliding="small", stroke=5.0 / cycles)
         left.append(float(sg.solve(model).steps[1].contacts[0].pressure.mean()))
     extrapolated = 2.0 * left[1] - left[0]
     compliance = 0.005 + 5e-6

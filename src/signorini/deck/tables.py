@@ -279,6 +279,11 @@ def _contact(entry: dict[str, Any], where: Where, reach: Reach, mesh: Mesh) -> C
         raise InputError(f"has {found}; expected one of mortar, {', '.join(OBSTACLES)}", where=where)
     key = sides[0]
     if key == "mortar":
+        if isinstance(given["mortar"], dict):
+            shapes = "a rigid shape stands in its place, as plane = { ... }"
+            raise InputError(
+                f"is a table; expected the name of a boundary or obstacle; {shapes}", where=(*where, "mortar")
+            )
         text(given["mortar"], (*where, "mortar"))
     else:
         given["mortar"] = deck_shape(key, given.pop(key), (*where, key), reach, mesh)

@@ -16,6 +16,7 @@ from signorini.model.model import Model
 from signorini.model.obstacle import Plane
 from signorini.model.step import Step
 from signorini.model.varying import Formula
+from signorini.model.wear import Wear
 
 GASKET = Closure([(0.0, 0.0), (0.01, 1.0), (0.015, 4.0), (0.04, 8.0), (0.042, 30.0)])
 """Lines that stiffen and soften in turn, so that pairs on a way to one pressure pass kinks of both kinds."""
@@ -69,4 +70,35 @@ def block_on_a_bed(
             )
         ],
         steps=steps or [Step(scale={"p": 1.0}, path="exact")],
+    )
+
+
+def worn_layer(
+    table: Sequence[tuple[float, float]], *, cycles: int, sliding: Literal["small", "finite"], stroke: float = 0.5
+) -> Model:
+    """A block, of modulus 1e5 and height 1/2, held down by 0.03 on a layer, rubbed by twice a stroke in every cycle.
+
+    With Archard's coefficient 1e-3 a cycle takes 1e-3 times its pressure and its way from the overlap.
+
+    Parameters
+    ----------
+    table : closures and pressures of the layer
+    cycles : how often it is rubbed
+    sliding : of its sides
+    stroke : there, and back, length
+    """
+    return Model(
+        rectangle(width=2.0, height=0.5, nx=1, ny=1),
+        kind="plane strain",
+        bodies=[Body("block", Elastic(E=1e5, nu=0.0))],
+        supports=[Support("top", u=(None, -0.03), name="press"), Support("top", u=(stroke, None), name="drive")],
+        contacts=[
+            Contact(
+                "bottom", Plane((0, 0), (0, 1)), closure=Closure(table), sliding=sliding, wear=Wear(1e-3), name="sole"
+            )
+        ],
+        steps=[
+            Step(scale={"press": 1.0, "drive": 0.0}, path="exact"),
+            Step(scale={"drive": [1.0, 0.0]}, repeat=cycles, path="exact"),
+        ],
     )

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from signorini.api import solve
-from signorini.gallery.closures import GASKET, HEIGHT, MODULUS, block_on_a_bed
+from signorini.gallery.closures import GASKET, HEIGHT, MODULUS, block_on_a_bed, worn_layer
 from signorini.law.closure import Closure
 from signorini.model.step import Step
 from signorini.verify.check import Check, checks_of
@@ -65,3 +65,28 @@ def rough_interface() -> Iterator[Check]:
             ("gap over the clearance, and 1", 1.0 + float(gap.mean()) / clearance, 2.0 - x, 2e-3),
             source="p = p_0 x (exp x - 1) / (e - 1)",
         )
+
+
+def layer_that_wears() -> Iterator[Check]:
+    """A layer of two lines that is rubbed and worn, on sides that slide far: cycle by cycle in closed form."""
+    table, cycles = [(0.0, 0.0), (0.02, 4.0), (0.04, 20.0)], 6
+    step = solve(worn_layer(table, cycles=cycles, sliding="finite")).steps[-1]
+    closures, pressures = np.transpose(table)
+    overlap, worn = 0.03, 0.0
+    for _ in range(cycles):
+        loss = 1e-3 * float(np.interp(overlap, closures + 5e-6 * pressures, pressures))
+        overlap, worn = overlap - loss, worn + loss
+    contact = step.contacts[0]
+    assert contact.wear is not None
+    yield from checks_of(
+        "B19 layer that is worn by sliding",
+        (
+            "pressure left",
+            float(contact.pressure.mean()),
+            float(np.interp(overlap, closures + 5e-6 * pressures, pressures)),
+            1e-11,
+        ),
+        ("worn depth", float(contact.wear.depth.max()), worn, 1e-11),
+        ("energy balance, and 1", 1.0 + step.energy_defect / step.released, 1.0, 1e-12),
+        source="k p s of every cycle",
+    )

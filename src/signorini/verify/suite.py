@@ -106,6 +106,7 @@ QUICK: tuple[Case, ...] = (
     closures.block_on_a_gasket,
     closures.gasket_in_a_cycle,
     closures.rough_interface,
+    closures.layer_that_wears,
     cohesion.bar_torn_off,
     cohesion.double_cantilever,
     twist.torsion_of_a_shaft,
