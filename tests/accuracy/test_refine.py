@@ -92,6 +92,20 @@ def test_meshes_with_sides_of_their_own():
 
 
 @pytest.mark.slow
+def test_bodies_that_yield():
+    """In four increments on every mesh; beside a mesh of six times the nodes."""
+    model = hertz()
+    yielding = sg.Body("block", sg.Elastic(E=E, nu=NU, plastic=sg.Plastic(0.22, hardening=20.0)))
+    model = replace(model, bodies=[yielding], steps=[sg.Step(name="press", increments=4)])
+    rough, fine = (sg.solve(model, accuracy=asked) for asked in (0.1, 0.03))
+    assert rough.accuracy.met
+    assert rough.last.yielding.share > 0.0
+    assert true_error(rough, fine) <= rough.accuracy.pressure <= 0.1
+    with pytest.raises(sg.InputError, match="derivatives do not know bodies that yield"):
+        sg.solve(model, accuracy=sg.Accuracy(0.1, of="peak pressure"))
+
+
+@pytest.mark.slow
 def test_energy_of_a_flat_punch():
     """Its pressure has no limit at the edge; stresses in the norm of energy have."""
     model = coarse.flat_punch()

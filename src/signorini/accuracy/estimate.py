@@ -14,6 +14,7 @@ from signorini.arrays import Array
 from signorini.fem.space import make_space
 from signorini.fem.stress import DeformedBodies
 from signorini.meshing.simplices import Simplices
+from signorini.plasticity.fields import by_family
 from signorini.solution.history import History
 
 LINEAR = 0.6
@@ -67,7 +68,8 @@ def estimate(history: History, before: tuple[Simplices, History] | None = None) 
     traced, carried, pairs = list[ContactErrors](), list[ContactErrors](), 0
     squares, lost, norms = np.zeros(model.mesh.number_of_cells), [0.0], [0.0]
     for k, step in enumerate(history.steps):
-        stress = stress_error(DeformedBodies.of(space, model, step.displacement, step.factors))
+        flowed = {} if step.plastic is None else by_family(space, model, step.plastic.state.strain)
+        stress = stress_error(DeformedBodies.of(space, model, step.displacement, step.factors, flowed))
         squares += stress.squares
         lost.append(float(stress.squares.sum()))
         norms.append(stress.norm_square)

@@ -124,8 +124,7 @@ def refuse(model: Model, *, whole: bool = False) -> None:
     InputError
         With what it has that an estimate, or another mesh, does not know.
     """
-    found = [("bodies that yield", model.yields), ("contacts that slide far", model.slides)]
-    found += [("contacts that wear", model.wears)]
+    found = [("contacts that slide far", model.slides), ("contacts that wear", model.wears)]
     if whole:
         found += [("bolts", bool(model.bolts)), ("cyclic symmetries", bool(model.cyclic_symmetries))]
         found += [
