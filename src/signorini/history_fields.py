@@ -32,7 +32,7 @@ from signorini.output.history_table import history_columns
 from signorini.output.result_table import ResultTable
 from signorini.plasticity.fields import PlasticFields
 from signorini.solution.fatigue_result import FatigueResult
-from signorini.solution.moment import at_load, counted, instant_at, step_number
+from signorini.solution.moment import at_load, event_load, increment_end, instant_at, step_number
 from signorini.solution.stress_history import StressHistory
 
 if TYPE_CHECKING:
@@ -82,8 +82,10 @@ class HistoryFields(DifferentiableHistory):
         if sum(part is not None for part in (load, increment, event)) > 1:
             raise InputError("has more than one of 'load', 'increment' and 'event'; expected one of them")
         number = step_number(self, step)
+        if event is not None:
+            load = event_load(self, number, event)
         if load is None:
-            place = counted(self, number, increment, event)
+            place = increment_end(self, number, increment)
         else:
             place = at_load(self, number, load, partial(at_rest, self))
         return HistoryMoment(

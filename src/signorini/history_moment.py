@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array
-from signorini.engine.moments import displacement_at
+from signorini.engine.moments import whole_instant
 from signorini.engine.recovery import Recovery
 from signorini.errors import InputError, one_of
 from signorini.fem.path import PathResult, along
@@ -104,9 +104,7 @@ class HistoryMoment(Short):
             return step
         if self.instant.displacement is not None:
             return self.instant
-        return replace(
-            self.instant, displacement=displacement_at(self.recovery(), self.history, self.number, self.instant)
-        )
+        return whole_instant(self.recovery(), self.history, self.number, self.instant)
 
     def stress(self, body: str) -> BodyStress:
         """Stress of a body at its nodes, not averaged with other bodies.
@@ -171,7 +169,7 @@ class HistoryMoment(Short):
         if path.suffix.lower() == ".csv":
             self.contact_table().write(path)
         else:
-            write_bodies(self.fields.at(self.state), path)
+            write_bodies(self.fields.at(self.state, strained=True), path)
 
 
 def body_number(model: Model, name: str) -> int:

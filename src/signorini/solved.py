@@ -55,7 +55,7 @@ class Solution(HistoryFields):
         """
         path = Path(path)
         writers: dict[str, Callable[[], object]] = {
-            ".vtu": lambda: write_bodies(self._fields.at(self.last), path, self._fatigue_fields),
+            ".vtu": lambda: write_bodies(self._fields.at(self.last, strained=True), path, self._fatigue_fields),
             ".pvd": lambda: write_pvd(self, self._fields, path),
             ".h5": lambda: write_archive(self, path),
             ".frd": lambda: write_frd(self, self._fields, path),

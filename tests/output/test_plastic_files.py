@@ -123,7 +123,11 @@ def test_fields_hold_plastic_strains(out: Path) -> None:
     assert set(grid.point_data) == {
         "displacement",
         "stress",
+        "strain",
         "von_mises",
+        "principal_stress",
+        "reaction",
+        "contact_force",
         "node",
         "peeq",
         "plastic_strain",
@@ -204,7 +208,8 @@ def test_models_that_cannot_yield_have_nothing_of_it(tmp_path: Path) -> None:
     assert solution.last.plastic is None
     assert solution.last.yielding is None
     solution.write(tmp_path / "elastic.vtu")
-    assert set(meshio.read(tmp_path / "elastic.vtu").point_data) == {"displacement", "stress", "von_mises", "node"}
+    names = {"displacement", "stress", "strain", "von_mises", "principal_stress", "reaction", "contact_force", "node"}
+    assert set(meshio.read(tmp_path / "elastic.vtu").point_data) == names
     assert "plastic" not in str(solution)
 
 

@@ -16,6 +16,7 @@ from signorini.engine.recovery import Recovery
 from signorini.errors import InputError
 from signorini.linalg.threads import one_thread
 from signorini.solution.history import History
+from signorini.solution.nodal_forces import NodalForces
 from signorini.solution.results import OPEN, Instant, StepResult
 
 _RANK_TOL = 1e-9  # of the largest: motions that pairs see less of are not known
@@ -51,8 +52,8 @@ def at_rest(history: History) -> Instant:
     )
 
 
-def displacement_at(recovery: Recovery, history: History, number: int, instant: Instant) -> Array:
-    """Displacements (nodes, d) of the bodies at a moment, as `dofs_on_the_way` finds them.
+def whole_instant(recovery: Recovery, history: History, number: int, instant: Instant) -> Instant:
+    """A moment with the displacements that `dofs_on_the_way` finds, and the forces that follow from them.
 
     Parameters
     ----------
@@ -60,8 +61,11 @@ def displacement_at(recovery: Recovery, history: History, number: int, instant: 
     history, number : with the step of the moment, which counts from 1
     instant : the contacts at the moment
     """
-    (found,) = dofs_on_the_way(recovery, history, number, [instant])
-    return frozen(recovery.examined.space.at_nodes(found))
+    (u,) = dofs_on_the_way(recovery, history, number, [instant])
+    space, constraints = recovery.examined.space, recovery.examined.constraints
+    reaction = space.at_nodes(recovery.held(instant, u) + constraints.foundation_forces(u))
+    forces = NodalForces.of(reaction, space.at_nodes(recovery.pressed(instant)))
+    return replace(instant, displacement=frozen(space.at_nodes(u)), nodal_forces=forces)
 
 
 @one_thread()

@@ -100,9 +100,7 @@ def _row(recovery: Recovery, instant: Instant, u: Array) -> Mapping[str, float]:
     """Values by column in one state, from its displacements (dofs,)."""
     examined = recovery.examined
     model, space, constraints = examined.model, examined.space, examined.constraints
-    loads, pressed = recovery.loads(instant), recovery.pressed(instant)
-    external = np.where(constraints.alone, loads, recovery.K @ u - pressed)
-    held = constraints.support_forces(external - loads)
+    loads, external, held = recovery.loads(instant), recovery.external(instant, u), recovery.held(instant, u)
     rigid = {}
     for j, body in enumerate(_rigid(model)):
         force = external if j < len(model.obstacles) else loads + held

@@ -116,6 +116,15 @@ class Recovery:
         loads = (moment.factors[name] * f for name, f in self.examined.loads.items())
         return np.asarray(sum(loads, np.zeros(self.examined.space.number_of_dofs)))
 
+    def external(self, moment: Instant, u: Array) -> Array:
+        """(dofs,) Loads and reactions at a moment with displacements (dofs,), as a `State` has them."""
+        inner = self.K @ u - self.pressed(moment)
+        return np.where(self.examined.constraints.alone, self.loads(moment), inner)
+
+    def held(self, moment: Instant, u: Array) -> Array:
+        """(dofs,) Forces of supports at a moment with displacements (dofs,)."""
+        return self.examined.constraints.support_forces(self.external(moment, u) - self.loads(moment))
+
     def pressed(self, moment: Instant) -> Array:
         """(dofs,) Forces of the pairs on the bodies."""
         interface = self.examined.interface

@@ -26,6 +26,7 @@ from signorini.model.stage import Stage
 from signorini.solution import results
 from signorini.solution.certificate import worst_of
 from signorini.solution.contact_wear import ContactWear
+from signorini.solution.nodal_forces import NodalForces
 from signorini.solution.results import (
     ContactResult,
     Instant,
@@ -202,7 +203,18 @@ def instant_of(prepared: Prepared, state: State) -> Instant:
         factors=dict(state.point.factors),
         plastic=_plastic(state, state, whole=True),
         places=frozen(prepared.space.mesh.points) if prepared.meshed is not None else None,
+        nodal_forces=_nodal_forces(prepared, state),
     )
+
+
+def _nodal_forces(prepared: Prepared, state: State) -> NodalForces | None:
+    """Forces of supports and contacts at the nodes in a state whose displacements are known."""
+    if prepared.turns:
+        return None
+    space, constraints = prepared.space, prepared.constraints
+    loads, _ = applied(prepared, state.point)
+    held = constraints.support_forces(state.external - loads) + constraints.foundation_forces(state.displacement)
+    return NodalForces.of(space.at_nodes(held), space.at_nodes(prepared.interface.on_bodies(state.forces)))
 
 
 def _instants(
@@ -245,6 +257,9 @@ def _instants(
             ),
             places=frozen(now.space.mesh.points)
             if now.meshed is not None and (snapshot is end or snapshot.kept)
+            else None,
+            nodal_forces=_nodal_forces(now, followed.after if snapshot is end else snapshot.state)
+            if snapshot is end or snapshot.kept
             else None,
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:

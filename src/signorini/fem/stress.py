@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -112,6 +113,24 @@ class DeformedBodies:
         stress = np.einsum("mcd,mqd->mqc", D, strain if flowed is None else strain - flowed)
         return points.relaxed(D, stress)
 
+    def strain(self, group: Group, stress: Array) -> Array:
+        """Strains of a group that belong to its stresses at the best points of its cells, both (m, p, 4 or 6)."""
+        strain = np.einsum("mcd,mqd->mqc", self._compliances[group.body], stress)
+        if self.temperature is not None:
+            points = kinematics(self.space, self.model, group, best=True)
+            strain += thermal_strain(self.model, group, points, self.temperature)
+        flowed = at_best_points(group, self.plastic)
+        if flowed is not None:
+            strain += flowed
+        strain[..., 3:] *= 0.5
+        return strain
+
+    @cached_property
+    def _compliances(self) -> Array:
+        """Strains of unit stresses of every body, in plane stress with the strain across."""
+        kind = "3d" if self.model.components == 3 else "plane strain"
+        return np.linalg.inv(np.array([elasticity(body.material, kind) for body in self.model.bodies]))
+
     def _elastic_strain(self, group: Group, points: Kinematics) -> Array:
         """Strains of the displacements less the thermal ones, at points of a group, (m, q, 4 or 6)."""
         strain = points.strain(self.displacement[group.cells])
@@ -135,6 +154,61 @@ class DeformedBodies:
 def space_of(model: Model) -> Space:
     """The displacement space of the bodies of a model, without its obstacles; nodes of no cell may be named."""
     return make_space(model.mesh, kind=model.kind, linked=linked_nodes(model) if model.couples else None)
+
+
+def principal_stresses(stress: Array) -> Array:
+    """The three principal stresses (n, 3) of stresses (n, 6), the largest first.
+
+    >>> principal_stresses(np.array([[1.0, 1.0, -3.0, 2.0, 0.0, 0.0]])).tolist()
+    [[3.0, -1.0, -3.0]]
+    """
+    if not stress[:, 4:].any():  # one of them is that across the plane
+        half, mean = 0.5 * (stress[:, 0] - stress[:, 1]), 0.5 * (stress[:, 0] + stress[:, 1])
+        radius = np.hypot(half, stress[:, 3])
+        found = np.column_stack([mean + radius, mean - radius, stress[:, 2]])
+        return np.asarray(-np.sort(-found, axis=1))
+    return np.asarray(np.linalg.eigvalsh(stress[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]])[:, ::-1])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class BodyTensors:
+    """Stresses and strains of all bodies, at their nodes and in their cells.
+
+    Attributes
+    ----------
+    stresses : of every body at its nodes
+    strains : of every body (k, 6) at the same nodes: tensors, shear strains are half of those that engineers count
+    in_cells : (cells, 12) stresses and strains side by side, means of the points of a cell where stresses are best
+    """
+
+    stresses: list[BodyStress]
+    strains: list[Array]
+    in_cells: Array
+
+
+def body_tensors(deformed: DeformedBodies) -> BodyTensors:
+    """Stresses as of `body_stresses`, with the strains that belong to them, see `point_strains`; both in cells, too."""
+    space, model = deformed.space, deformed.model
+    every = list(groups(space, model))
+    stress = {id(group): deformed.stress(group) for group in every}
+    strain = {id(group): deformed.strain(group, stress[id(group)]) for group in every}
+    width, in_cells = elasticities(model).shape[1], np.zeros((model.mesh.number_of_cells, 12))
+    for group in every:
+        for first, values in ((0, stress[id(group)]), (6, strain[id(group)])):
+            means = values.mean(axis=1)
+            in_cells[group.numbers, first : first + 6] = deformed.in_space(means, group.cells[:, 0])
+    at_nodes = [
+        nodal_averages(space, model, lambda group, values=values: values[id(group)], width, every)  # type: ignore[misc]
+        for values in (stress, strain)
+    ]
+    return BodyTensors(
+        stresses=[
+            BodyStress(body=body.name, nodes=nodes, stress=deformed.in_space(found, nodes))
+            for body, (nodes, found) in zip(model.bodies, at_nodes[0], strict=True)
+        ],
+        strains=[deformed.in_space(found, nodes) for nodes, found in at_nodes[1]],
+        in_cells=in_cells,
+    )
 
 
 def body_stresses(
@@ -245,18 +319,8 @@ def point_strains(deformed: DeformedBodies) -> Iterator[tuple[IntArray, Array]]:
     They belong to the stresses: with the mean dilatation or the internal modes of the cells, and in plane stress with
     the strain across.
     """
-    space, model = deformed.space, deformed.model
-    kind = "3d" if model.components == 3 else "plane strain"
-    C = np.linalg.inv(np.array([elasticity(body.material, kind) for body in model.bodies]))
-    for group in groups(space, model):
-        strain = np.einsum("mcd,mqd->mqc", C[group.body], deformed.stress(group))
-        if deformed.temperature is not None:
-            points = kinematics(space, model, group, best=True)
-            strain += thermal_strain(model, group, points, deformed.temperature)
-        flowed = at_best_points(group, deformed.plastic)
-        if flowed is not None:
-            strain += flowed
-        strain[..., 3:] *= 0.5
+    for group in groups(deformed.space, deformed.model):
+        strain = deformed.strain(group, deformed.stress(group))
         yield group.numbers, deformed.in_space(strain, group.cells[:, :1])
 
 

@@ -15,6 +15,7 @@ from signorini.fem.stress import (
     BodyStress,
     DeformedBodies,
     body_stresses,
+    body_tensors,
     point_strains,
     point_stresses,
     space_of,
@@ -43,6 +44,9 @@ class BodyFields:
     plastic : at the points; None where no body yields
     in_cells : of every block, the means over its cells; empty where no body yields
     depth : (n,) worn, at the corners of sides that wear, otherwise 0; None where none does
+    strain : (n, 6) as tensors, components as those of the stress; None unless asked for
+    tensors_in_cells : of every block (m, 12), means of stress and strain over its cells; empty unless asked for
+    reaction, contact_force : (n, d) forces of supports, and of contacts, on the bodies; None where they are not known
     """
 
     points: Array
@@ -55,6 +59,10 @@ class BodyFields:
     plastic: PlasticFields | None = None
     in_cells: tuple[PlasticFields, ...] = ()
     depth: Array | None = None
+    strain: Array | None = None
+    tensors_in_cells: tuple[Array, ...] = ()
+    reaction: Array | None = None
+    contact_force: Array | None = None
 
     @cached_property
     def von_mises(self) -> Array:
@@ -98,9 +106,12 @@ class Fields:
         if state not in self._kept:
             assert state.displacement is not None
             plastic = self.plastic_strains(state)
-            found = body_stresses(*self.on(state), state.displacement, state.factors, plastic)
-            self._kept = {end: stresses for end, stresses in self._kept.items() if end in self._shared} | {state: found}
+            self._keep(state, body_stresses(*self.on(state), state.displacement, state.factors, plastic))
         return self._kept[state]
+
+    def _keep(self, state: State, found: list[BodyStress]) -> None:
+        """Keep the stresses of a state, and of others those that several files share."""
+        self._kept = {end: stresses for end, stresses in self._kept.items() if end in self._shared} | {state: found}
 
     def cell_stresses(self, step: StepResult) -> list[tuple[IntArray, Array]]:
         """Stresses in the cells, see :func:`signorini.fem.stress.point_stresses`; those of one step are kept."""
@@ -112,9 +123,10 @@ class Fields:
         """Strains in the cells, see :func:`signorini.fem.stress.point_strains`."""
         yield from point_strains(self._deformed(step))
 
-    def _deformed(self, step: StepResult) -> DeformedBodies:
-        """The bodies at the end of a step."""
-        return DeformedBodies.of(*self.on(step), step.displacement, step.factors, self.plastic_strains(step))
+    def _deformed(self, state: State) -> DeformedBodies:
+        """The bodies in a state whose displacement is known."""
+        assert state.displacement is not None
+        return DeformedBodies.of(*self.on(state), state.displacement, state.factors, self.plastic_strains(state))
 
     def cell_plastic(self, step: StepResult) -> Iterator[tuple[IntArray, PlasticFields]]:
         """Plastic fields in the cells, see :func:`signorini.plasticity.fields.point_fields`; none where none yields."""
@@ -133,24 +145,36 @@ class Fields:
             self._flow = state, nodal_fields(self.space, self.model, state.plastic.state)
         return self._flow[1]
 
-    def at(self, state: State) -> BodyFields:
-        """All bodies in a state whose displacement is known, one after the other in the order of the model."""
+    def at(self, state: State, *, strained: bool = False) -> BodyFields:
+        """All bodies in a state whose displacement is known, one after the other in the order of the model.
+
+        Parameters
+        ----------
+        state : of the bodies
+        strained : whether strains, and stresses in cells, are asked for
+        """
         assert state.displacement is not None
+        tensors = body_tensors(self._deformed(state)) if strained else None
+        if tensors is not None:
+            self._keep(state, tensors.stresses)
         stresses, plastic, mesh = self.stresses(state), self.plastic(state), self.on(state)[1].mesh
         nodes = np.concatenate([part.nodes for part in stresses])
         owners = mesh.by_family(self.model.body_of_cells())
-        families, cells, body, in_cells = [], [], [], []
+        families, cells, body, in_cells, numbers = [], [], [], [], []
+        first = np.cumsum([0, *(len(block) for block in mesh.cells.values())])
         means = {} if state.plastic is None else mean_fields(self.space, self.model, state.plastic.state)
         start = 0
         for i, part in enumerate(stresses):
-            for (family, block), owner in zip(mesh.cells.items(), owners, strict=True):
+            for k, ((family, block), owner) in enumerate(zip(mesh.cells.items(), owners, strict=True)):
                 own = block[owner == i]
                 if len(own):
                     families.append(family)
                     cells.append(start + np.searchsorted(part.nodes, own))
                     body.append(np.full(len(own), i))
+                    numbers.append(first[k] + np.flatnonzero(owner == i))
                     in_cells += [means[family].part(owner == i)] if means else []
             start += len(part.nodes)
+        acting = None if state.nodal_forces is None else state.nodal_forces.at_all(len(mesh.points))
         return BodyFields(
             points=mesh.points[nodes],
             displacement=state.displacement[nodes],
@@ -162,6 +186,10 @@ class Fields:
             plastic=joined(plastic) if plastic else None,
             in_cells=tuple(in_cells),
             depth=_worn_depth(state, nodes, len(mesh.points)),
+            strain=None if tensors is None else np.concatenate(tensors.strains),
+            tensors_in_cells=() if tensors is None else tuple(tensors.in_cells[own] for own in numbers),
+            reaction=None if acting is None else acting[0][nodes],
+            contact_force=None if acting is None else acting[1][nodes],
         )
 
 

@@ -302,11 +302,11 @@ def _write_tables(history: History, fields: Fields, folder: Path, *, done: Colle
         write_fatigue(history, folder / "fatigue.csv")
         names.append("fatigue.csv")
         further = fatigue_fields(history.fatigue_results, fields.stresses(history.last))
-        write_bodies(fields.at(history.last), folder / "solution.vtu", further)
+        write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu", further)
     elif last.exists():
         shutil.copyfile(last, folder / "solution.vtu")
     else:
-        write_bodies(fields.at(history.last), folder / "solution.vtu")
+        write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu")
     if model.contacts:
         write_surfaces(model, history.last.contacts, folder / SURFACES)
         names.append(SURFACES)

@@ -91,7 +91,7 @@ def write_series(
         within = f"{frame.step:04d}_{frame.number:04d}.vtu"
         name = f"{bodies}_{frame.step:04d}.vtu" if frame.last else f"{FIELDS}/{bodies}_{within}"
         if name not in done:
-            write_bodies(fields.at(frame.state), folder / name)
+            write_bodies(fields.at(frame.state, strained=True), folder / name)
         lists[bodies].append((frame.time, name))
         if touching:
             name = f"{FIELDS}/{surfaces}_{within}"

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from signorini.arrays import Array, IntArray, padded
+from signorini.fem.stress import principal_stresses
 from signorini.meshio_fixes import complete_meshio
 from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
@@ -22,13 +23,16 @@ _SURFACE_CELLS = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
 
 
 def write_bodies(fields: BodyFields, path: Path, further: Mapping[str, Array] | None = None) -> None:
-    """Write displacements and stresses of the bodies in one state.
+    """Write displacements, stresses, strains and forces of the bodies in one state.
 
     Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz, xz, force per area, tension
-    positive; axisymmetric: x is the radius, y the axis, zz the hoop stress), ``von_mises`` and ``node`` (number in the
-    mesh or deck). Cell array: ``body`` (0, 1, ... in the order of the model). Where bodies yield, points and cells
-    (their means) have ``peeq``, the equivalent plastic strain, ``plastic_strain`` (the tensor, components as those of
-    the stress) and ``back_stress`` (the sum of all). Where sides wear, points have ``worn_depth`` (length).
+    positive; axisymmetric: x is the radius, y the axis, zz the hoop stress), ``von_mises``, ``principal_stress`` (the
+    largest first), ``strain`` (the tensor: shear strains are half of those that engineers count), ``reaction`` (of
+    supports and foundations, force), ``contact_force`` (of contacts on both sides, force; neither where bodies turn)
+    and ``node`` (number in the mesh or deck). Cell arrays: ``body`` (0, 1, ... in the order of the model), ``stress``
+    and ``strain`` (means of the integration points of a cell, not averaged with its neighbours'). Where bodies yield,
+    points and cells (their means) have ``peeq``, the equivalent plastic strain, ``plastic_strain`` (the tensor) and
+    ``back_stress`` (the sum of all). Where sides wear, points have ``worn_depth`` (length).
 
     Parameters
     ----------
@@ -39,6 +43,9 @@ def write_bodies(fields: BodyFields, path: Path, further: Mapping[str, Array] | 
     import meshio
 
     complete_meshio()
+    rare = {"strain": fields.strain, "worn_depth": fields.depth}
+    forces = {"reaction": fields.reaction, "contact_force": fields.contact_force}
+    tensors = fields.tensors_in_cells
     grid = meshio.Mesh(
         padded(fields.points, 3),
         list(zip(fields.families, fields.cells, strict=True)),
@@ -46,12 +53,18 @@ def write_bodies(fields: BodyFields, path: Path, further: Mapping[str, Array] | 
             "displacement": padded(fields.displacement, 3),
             "stress": fields.stress,
             "von_mises": fields.von_mises,
+            "principal_stress": principal_stresses(fields.stress),
             "node": fields.node,
             **({} if fields.plastic is None else _plastic(fields.plastic)),
-            **({} if fields.depth is None else {"worn_depth": fields.depth}),
+            **{name: values for name, values in rare.items() if values is not None},
+            **{name: padded(values, 3) for name, values in forces.items() if values is not None},
             **(further or {}),
         },
-        cell_data={"body": list(fields.body), **_by_name(fields.in_cells)},
+        cell_data={
+            "body": list(fields.body),
+            **({"stress": [t[:, :6] for t in tensors], "strain": [t[:, 6:] for t in tensors]} if tensors else {}),
+            **_by_name(fields.in_cells),
+        },
     )
     with atomic_write(path) as aside:
         meshio.write(aside, grid, file_format="vtu")

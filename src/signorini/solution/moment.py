@@ -69,13 +69,32 @@ def step_number(history: History, step: int | str | None) -> int:
     return int(step)
 
 
-def counted(history: History, number: int, increment: int | None, event: int | None) -> MomentPlace:
-    """The end of an increment of a step, or one of its events; without either its end.
+def event_load(history: History, number: int, event: int) -> float:
+    """The part of a step at which one of its events is.
 
     Parameters
     ----------
     history, number : with that step, which counts from 1
-    increment, event : its number in the step, from 1
+    event : its number in the step, from 1
+
+    Raises
+    ------
+    InputError
+        If there is none of that number.
+    """
+    events = history.steps[number - 1].events
+    if not 1 <= event <= len(events):
+        raise InputError(f"is {event}; step {number} has {_numbers(len(events), 'event')}", where=("event",))
+    return events[event - 1].load_factor - (number - 1)
+
+
+def increment_end(history: History, number: int, increment: int | None) -> MomentPlace:
+    """The end of an increment of a step; of the step where none is named.
+
+    Parameters
+    ----------
+    history, number : with that step, which counts from 1
+    increment : its number in the step, from 1
 
     Raises
     ------
@@ -83,20 +102,13 @@ def counted(history: History, number: int, increment: int | None, event: int | N
         If there is none of that number.
     """
     result = history.steps[number - 1]
-    if event is not None:
-        count = len(result.events)
-        if not 1 <= event <= count:
-            raise InputError(f"is {event}; step {number} has {_numbers(count, 'event')}", where=("event",))
-        at = result.events[event - 1].load_factor
-        found = [instant for instant in result.instants if abs(instant.load_factor - at) <= _SAME_LOAD]
-        return MomentPlace(number=number, before=None, after=found[-1], part=1.0)
+    ends = [result.instants[-1]]
     if increment is not None:
         ends = [instant for instant in result.instants if instant.what in ("increment", "asked", "segment")]
         if result.path == "exact" or not 1 <= increment <= len(ends):
             words = "an exact path, without increments" if result.path == "exact" else _numbers(len(ends), "increment")
             raise InputError(f"is {increment}; step {number} has {words}", where=("increment",))
-        return MomentPlace(number=number, before=None, after=ends[increment - 1], part=1.0)
-    return MomentPlace(number=number, before=None, after=result.instants[-1], part=1.0)
+    return MomentPlace(number=number, before=None, after=ends[(increment or 0) - 1], part=1.0)
 
 
 def _numbers(count: int, what: str) -> str:
@@ -205,6 +217,9 @@ def instant_at(history: History, place: MomentPlace) -> Instant:
         factors={name: (1.0 - t) * before.factors.get(name, 0.0) + t * end for name, end in after.factors.items()},
         plastic=None,
         places=after.places,
+        nodal_forces=before.nodal_forces.towards(after.nodal_forces, t)
+        if known and before.nodal_forces is not None and after.nodal_forces is not None
+        else None,
     )
 
 

@@ -17,6 +17,7 @@ from signorini.short import Short
 from signorini.solution.bolt_result import BoltResult
 from signorini.solution.certificate import Certificate
 from signorini.solution.contact_wear import ContactWear
+from signorini.solution.nodal_forces import NodalForces
 
 OPEN, STICK, SLIP = "open", "stick", "slip"
 
@@ -229,6 +230,7 @@ class Instant(Short):
     factors : load factors by name
     plastic : flow of the bodies; None where none yields
     places : (nodes, d) of the mesh where displacements are known, if sides are worn and it has moved; otherwise None
+    nodal_forces : where displacements are known, and at the end of a step; None where bodies turn
     """
 
     load_factor: float
@@ -239,6 +241,7 @@ class Instant(Short):
     factors: Mapping[str, float]
     plastic: PlasticResult | None = None
     places: Array | None = None
+    nodal_forces: NodalForces | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -358,6 +361,11 @@ class StepResult(Short):
     def places(self) -> Array | None:
         """(nodes, d) Of the mesh at its end, where it has moved with what is worn; otherwise None."""
         return self.instants[-1].places
+
+    @property
+    def nodal_forces(self) -> NodalForces | None:
+        """Of supports and contacts at its end."""
+        return self.instants[-1].nodal_forces
 
     @property
     def contacts(self) -> tuple[ContactResult, ...]:
