@@ -114,13 +114,13 @@ class Condensed:
         return np.concatenate([c - R @ (R.T @ c), coefficients])
 
     def free_transposed(self, free: Array) -> tuple[Array, Array]:
-        """The transpose of `free`: a functional (d a + k,) of its result in motions (d, a) and resultants (k,)."""
+        """The transpose of `free`, of functionals (p, d a + k): in motions (p, d, a) and in resultants (p, k)."""
         R, rows = self.image.R, self.compliance.size
-        c = free[:rows] - R @ (R.T @ free[:rows])
-        resultant: Array = free[rows:] - self._leaning.T @ c
-        if len(resultant):
-            resultant = scipy.linalg.solve_triangular(self._basis.triangle, resultant)
-        return self.root * c.reshape(self.compliance.shape), resultant
+        c = free[:, :rows] - (free[:, :rows] @ R) @ R.T
+        resultant: Array = free[:, rows:] - c @ self._leaning
+        if R.shape[1]:
+            resultant = scipy.linalg.solve_triangular(self._basis.triangle, resultant.T).T
+        return self.root * c.reshape(-1, *self.compliance.shape), resultant
 
     def travel(self, left: Array) -> Array:
         """(k,) Rigid motion of relative displacements (d a,) of the pairs, length, beyond what deforms the bodies.

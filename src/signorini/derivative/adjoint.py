@@ -10,7 +10,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.derivative.functionals import displacement_weights, weights
 from signorini.derivative.points import TapePoint
-from signorini.derivative.recursion import Adjoint, PointTerm, Weights, backward
+from signorini.derivative.recursion import Adjoint, Weights, backward
 from signorini.derivative.view import HistoryView
 from signorini.model.outputs import Displacement, Output, Stress, WeightedSum
 
@@ -30,12 +30,8 @@ def adjoint_of(view: HistoryView, output: Output) -> tuple[Adjoint, dict[int, Ar
     for i, pull in pulls.items():
         of_h, of_r, pulled[i], beyond[i] = _of_bodies(view.points[i], len(view.interface), pull)
         _add(together, i, of_h, of_r)
-    adjoint = backward(view.points, together)
-    terms = adjoint.terms
-    for i, motion in beyond.items():
-        none = PointTerm(motion=np.zeros_like(motion), resultant=np.zeros(view.points[i].system.motions))
-        terms |= {i: replace(terms.get(i, none), motion=terms.get(i, none).motion - motion)}
-    return replace(adjoint, terms=terms, pulled=pulled), pulls
+    adjoint = backward(view.points, together, {i: -motion for i, motion in beyond.items()})
+    return replace(adjoint, pulled=pulled), pulls
 
 
 def _add(together: dict[int, Weights], i: int, h: Array, r: Array) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
-from signorini.derivative.recursion import BoundTerm
+from signorini.derivative.recursion import Adjoint, BoundTerm
 from signorini.law.bound import FrictionBound
 from signorini.law.friction import PairFriction
 
@@ -34,6 +34,10 @@ class FrictionChange:
     def moved(self, points: Sequence[TapePoint]) -> tuple[()]:  # noqa: ARG002
         """Nothing moves at once."""
         return ()
+
+    def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:  # noqa: ARG002
+        """Nothing but by the friction."""
+        return 0.0
 
     def bound(self, system: InterfaceSystem) -> BoundTerm:
         """Slopes, starts and kinks per unit of the parameter."""
@@ -87,6 +91,10 @@ class GapChange:
             found.append((motion, np.zeros(point.system.motions)))
         return found
 
+    def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:  # noqa: ARG002
+        """What the gaps change of an output."""
+        return sum(float(stack.motion[:, 0].sum(axis=0) @ self.gap[stack.system.active]) for stack in adjoint.stacks)
+
     def bound(self, system: InterfaceSystem) -> None:  # noqa: ARG002
         """The friction stays."""
         return
@@ -109,6 +117,15 @@ class LoadChange:
         for point in points:
             factor, unit = point.load.factors.get(self.name, 0.0), point.system.unit(self.name)
             found.append((factor * unit.motion, factor * unit.resultant))
+        return found
+
+    def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
+        """What the load changes of an output by motions and forces of the pairs."""
+        found = 0.0
+        for stack in adjoint.stacks:
+            factors = np.array([points[i].load.factors.get(self.name, 0.0) for i in stack.numbers])
+            unit = stack.system.unit(self.name)
+            found += stack.of(unit.motion, unit.resultant, factors)
         return found
 
     def bound(self, system: InterfaceSystem) -> None:  # noqa: ARG002

@@ -269,12 +269,9 @@ class Derivative:
         for system, friction in adjoint.bounds.items():
             bound = change.bound(system)
             found += 0.0 if bound is None else friction.along(bound)
+        found += change.total(points, adjoint)
         if isinstance(change, BodyChange | ModulusChange):
-            found += change.total(points, adjoint)
-            return found + self._at_once(change)
-        at_once = change.moved([points[i] for i in adjoint.terms])
-        for term, (motion, resultant) in zip(adjoint.terms.values() if at_once else (), at_once, strict=True):
-            found += float(np.vdot(term.motion, motion) + term.resultant @ resultant)
+            found += self._at_once(change)
         if isinstance(change, LoadChange):
             found += self._pulled_by(change.name)
         return found
@@ -282,8 +279,8 @@ class Derivative:
     def _gap(self, contact: str) -> Array:
         """(n,) The derivative by the gaps of a contact, node by node."""
         view, found = self._history.view, np.zeros(len(self._history.view.interface))
-        for i, term in self._adjoint.terms.items():
-            found[view.points[i].system.active] += term.motion[0]
+        for stack in self._adjoint.stacks:
+            found[stack.system.active] += stack.motion[:, 0].sum(axis=0)
         return found[view.pairs(contact)]
 
     def _pulled_by(self, name: str) -> float:

@@ -197,33 +197,16 @@ def _half_width(output: HalfWidth, view: HistoryView, r: Array, none: Array) -> 
 
 def _dissipation(output: Dissipation, view: HistoryView, last: int) -> tuple[float, dict[int, Weights]]:
     """What friction has taken: trapezoids between the ends of pieces, increments with the forces at their ends."""
-    own, total = view.pairs(output.contact), 0.0
-    h, r = np.zeros_like(view.motions(0)), np.zeros_like(view.motions(0))
-    found = {i: Weights(h=np.zeros_like(h), r=np.zeros_like(h)) for i in range(last + 1)}
-    for i in range(last + 1):
-        before, pushed, (h, r) = h, r, (view.motions(i), view.forces(i))
-        seen = own & _active(view, i) & (_active(view, i - 1) if i else True)
-        moved = np.where(seen, h - before, 0.0)
-        moved[0] = 0.0
-        share = 0.5 + 0.5 * _late(view, i)  # of the force at the end of the piece
-        mean = np.where(seen, share * r + (1.0 - share) * pushed, 0.0)
-        mean[0] = 0.0
-        total -= float(np.vdot(mean, moved))
-        found[i].h -= mean
-        found[i].r -= share * moved
-        if i:
-            found[i - 1].h += mean
-            found[i - 1].r -= (1.0 - share) * moved
-    return total, found
-
-
-def _late(view: HistoryView, i: int) -> Array:
-    """(n,) 1 of pairs that slip under the friction at the end of a piece, 0 of those under its mean."""
-    point, late = view.points[i], np.zeros(len(view.interface))
-    late[point.system.active] = point.increment
-    return late
-
-
-def _active(view: HistoryView, i: int) -> BoolArray:
-    """(n,) Pairs that the law is asked of at a point."""
-    return view.points[i].system.condensed.active
+    history, until = view.friction, slice(last + 1)
+    h, r, active = history.h[until], history.r[until], history.active[until]
+    seen = view.pairs(output.contact) & active
+    seen[1:] &= active[:-1]
+    moved, pushed = np.diff(h, axis=0, prepend=0.0), np.concatenate([np.zeros_like(r[:1]), r[:-1]])
+    share = (0.5 + 0.5 * history.late[until])[:, None]  # of the force at the end of the piece
+    mean, moved = (np.where(seen[:, None], part, 0.0) for part in (share * r + (1.0 - share) * pushed, moved))
+    of_h, of_r = np.zeros((2, last + 1, 1 + h.shape[1], h.shape[2]))
+    of_h[:, 1:], of_r[:, 1:] = -mean, -share * moved
+    of_h[:-1, 1:] += mean[1:]
+    of_r[:-1, 1:] -= ((1.0 - share) * moved)[1:]
+    found = {i: Weights(h=of_h[i], r=of_r[i]) for i in range(last + 1)}
+    return -float(np.vdot(mean, moved)), found

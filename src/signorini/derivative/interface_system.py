@@ -11,15 +11,17 @@ the piece before. Nothing else is remembered. In space a pair that slips may tur
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
+from signorini.derivative.state_blocks import LONGEST_BLOCK, StateBlocks
 from signorini.engine.increments import moved_by_supports
 from signorini.engine.prepare import Prepared
-from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
 from signorini.friction.linear import Equilibrium, LinearSystem, Unknowns, linear_system
 from signorini.law.bound import SIGN
@@ -83,7 +85,7 @@ class InterfaceSystem:
         self.root: Array = self.condensed.root
         self.directions, self.pairs = prepared.interface.directions, len(self.active)
         self.motions = self.law.image.R.shape[1]
-        self._responses = Responses(self.law) if self.law.piecewise_linear else None
+        self._blocks = StateBlocks(self.law) if self.law.piecewise_linear else None
         self._units: dict[str, UnitLoad] = {}
         self._inside: dict[str, Array] = {}
         self._tangent: tuple[Tangent, LinearSystem] | None = None
@@ -111,7 +113,7 @@ class InterfaceSystem:
         codes : (n,) without branches
         h, r : (d, n) gaps and slips in the increment, forces
         """
-        if self._responses is not None:
+        if self._blocks is not None:
             return self.states_of_codes(self.law.pieces.coded(codes, r[0]))
         return self.states_of_law(r - h, r)
 
@@ -165,6 +167,20 @@ class InterfaceSystem:
         given = flat[acting]
         return np.concatenate([given @ image.A[acting] - h.ravel(), given @ image.R[acting]])
 
+    def ahead(self, points: Iterable[tuple[InterfaceSystem, PairStates]]) -> None:
+        """Prepare for states that are asked for next, in order, where that is cheaper than one by one: in the plane.
+
+        Parameters
+        ----------
+        points : systems and states of the points that come; those of other systems do not matter
+        """
+        if self._blocks is None:
+            return
+        coming = (states.codes for system, states in points if system is self and states.codes is not None)
+        first = next(coming, None)
+        if first is not None and not self._blocks.covers(first):
+            self._blocks.ahead([first, *islice(coming, LONGEST_BLOCK)])
+
     def respond(self, states: PairStates, free: Array) -> tuple[Array, Array]:
         """Motions and forces, (d, n), of what the equations see of a load, (d n + k,).
 
@@ -173,8 +189,8 @@ class InterfaceSystem:
         SingularState
             Where the states have no unique response.
         """
-        if self._responses is not None and states.codes is not None:
-            return self._responses.respond(states.codes, free)
+        if self._blocks is not None and states.codes is not None:
+            return self._blocks.respond(states.codes, free)
         system, (A, R) = self._system(states), (self.law.image.A, self.law.image.R)
         unknowns, rows = system.unknowns, len(A)
         x = _back(system, -np.concatenate([unknowns.seen(free[:rows].reshape(self.directions, -1)), free[rows:]]), 0)
@@ -190,8 +206,8 @@ class InterfaceSystem:
         SingularState
             Where the states have no unique response.
         """
-        if self._responses is not None and states.codes is not None:
-            return self._responses.respond_transposed(states.codes, h, r)
+        if self._blocks is not None and states.codes is not None:
+            return self._blocks.respond_transposed(states.codes, h, r)
         system, (A, R) = self._system(states), (self.law.image.A, self.law.image.R)
         unknowns, flat = system.unknowns, system.unknowns.prescribed(h).ravel()
         pushed = _forces_transposed(unknowns, r + (A @ flat).reshape(r.shape))

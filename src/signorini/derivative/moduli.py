@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.condense.response import ByNodes
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.pair_change import PairChange, between_bodies
@@ -45,6 +45,21 @@ class _Contacts:
     from_forces: Array
     whole: Array
     imposed: Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Moved:
+    """What a modulus moves at points of one system.
+
+    Attributes
+    ----------
+    numbers : (p,) of the points, rising
+    motion, resultant : (p, d a) and (p, k) motions of the pairs and resultants of loads
+    """
+
+    numbers: IntArray
+    motion: Array
+    resultant: Array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -111,32 +126,40 @@ class ModulusChange:
         """Motions of the pairs and resultants."""
         found: dict[int, tuple[Array, Array]] = {}
         for system in dict.fromkeys(point.system for point in points):
-            own = [i for i, point in enumerate(points) if point.system is system]
-            response, seen = _response(system), self._contacts(system, [points[i] for i in own])
-            motion, resultant = self._by_forces(system, seen), np.zeros((system.motions, len(own)))
+            known = self._at(system, points)
+            for i, motion, resultant in zip(known.numbers, known.motion, known.resultant, strict=True):
+                found[int(i)] = motion.reshape(system.directions, -1), resultant
+        return [found[i] for i in range(len(points))]
+
+    def _at(self, system: InterfaceSystem, points: Sequence[TapePoint]) -> _Moved:
+        """What it moves at those of the points that are of a system; kept for the last points asked for."""
+        if self._kept.get(system, (None,))[0] is not points:
+            numbers = np.array([i for i, point in enumerate(points) if point.system is system])
+            response, seen = _response(system), self._contacts(system, [points[i] for i in numbers])
+            motion, resultant = self._by_forces(system, seen), np.zeros((system.motions, len(numbers)))
             if self.tilts:
                 load = self._on_contact(system, seen.forces)
                 motion = motion + response.B @ response.parts.solve(load) + self._by_pairs(system, seen)
                 resultant = response.rigid.T @ load
-            for k, i in enumerate(own):
-                found[i] = motion[:, k].reshape(system.directions, -1), resultant[:, k]
-        return [found[i] for i in range(len(points))]
+            self._kept[system] = points, _Moved(numbers=numbers, motion=motion.T.copy(), resultant=resultant.T.copy())
+        return self._kept[system][1]
+
+    @cached_property
+    def _kept(self) -> dict[InterfaceSystem, tuple[Sequence[TapePoint], _Moved]]:
+        """Of systems so far, see `_at`."""
+        return {}
 
     def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
         """What it changes of an output through all points, its friction apart."""
         found = -sum(float(y @ self._on_body(points[i])) for i, y in adjoint.pulled.items()) / self.modulus
-        for system in dict.fromkeys(points[i].system for i in adjoint.terms):
-            own = [i for i in adjoint.terms if points[i].system is system]
-            motion = np.stack([adjoint.terms[i].motion.ravel() for i in own], axis=-1)
-            seen, response = self._contacts(system, [points[i] for i in own]), _response(system)
-            found += float(np.vdot(motion, self._by_forces(system, seen)))
-            if self.tilts:
-                resultant = np.stack([adjoint.terms[i].resultant for i in own], axis=-1)
-                w = response.parts.solve(response.B.T @ motion) + response.rigid @ resultant
-                for k, i in enumerate(own):
-                    w[:, k] += adjoint.pulled[i][system.condensed.dofs] if i in adjoint.pulled else 0.0
-                found += float(np.vdot(w, self._on_contact(system, seen.forces)))
-                found += float(np.vdot(motion, self._by_pairs(system, seen)))
+        for stack in adjoint.stacks:
+            system, known = stack.system, self._at(stack.system, points)
+            rows = np.searchsorted(known.numbers, stack.numbers)
+            found += float(np.vdot(stack.motion.reshape(len(rows), -1), known.motion[rows]))
+            found += float(np.vdot(stack.resultant, known.resultant[rows]))
+            for i in set(stack.numbers) & set(adjoint.pulled) if self.tilts else ():
+                forces = (system.root * points[i].r).reshape(-1, 1)
+                found += float(adjoint.pulled[i][system.condensed.dofs] @ self._on_contact(system, forces)[:, 0])
         return found
 
     def _on_body(self, point: TapePoint) -> Array:

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
@@ -49,6 +51,9 @@ class BoundTerm:
 
 class Change(Protocol):
     """What a parameter changes at once, per unit of it, where no pair moves."""
+
+    def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
+        """What it changes of an output, but by the friction."""
 
     def moved(self, points: Sequence[TapePoint]) -> Sequence[tuple[Array, Array]]:
         """Motions of the pairs (d, a), length, and resultants of loads (k,), force, at points; empty for none."""
@@ -101,20 +106,112 @@ class PointTerm:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class TermStack:
+    """The terms of some points of one system.
+
+    Attributes
+    ----------
+    system : the interface
+    numbers : of the points
+    motion, resultant : (p, d, a) and (p, k), as of `PointTerm`
+    """
+
+    system: InterfaceSystem
+    numbers: list[int]
+    motion: Array
+    resultant: Array
+
+    def of(self, motion: Array, resultant: Array, factors: Array) -> float:
+        """What motions (d, a) and resultants (k,), at every point times a factor (p,), change of the output."""
+        of_motion, of_resultant = np.tensordot(factors, self.motion, axes=1), factors @ self.resultant
+        return float(np.vdot(of_motion, motion) + of_resultant @ resultant)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Adjoint:
     """An output by everything that drives the points.
 
     Attributes
     ----------
-    terms : by number of the point, those that matter alone
+    stacks : of the points that matter, one a system
     bounds : by system
     pulled : (z,) by number of the point, of outputs of bodies: free displacements where what the output changes with
         pulls on them
     """
 
-    terms: dict[int, PointTerm]
+    stacks: tuple[TermStack, ...]
     bounds: dict[InterfaceSystem, BoundTerm]
     pulled: dict[int, Array] = field(default_factory=dict)
+
+    @cached_property
+    def terms(self) -> dict[int, PointTerm]:
+        """By number of the point, those that matter alone."""
+        return {
+            i: PointTerm(motion=motion, resultant=resultant)
+            for stack in self.stacks
+            for i, motion, resultant in zip(stack.numbers, stack.motion, stack.resultant, strict=True)
+        }
+
+
+class _Passed:
+    """Points of one system that were passed backwards: what of their responses is looked at all at once.
+
+    Parameters
+    ----------
+    system : the interface
+
+    Attributes
+    ----------
+    numbers : of the points
+    bound : how the output changes with the friction of the pairs
+    """
+
+    def __init__(self, system: InterfaceSystem) -> None:
+        self.system, self.bound = system, BoundTerm.of(system.law.pieces)
+        self.numbers: list[int] = []
+        self._points: list[TapePoint] = []
+        self._free: list[Array] = []
+        self._pushed: list[Array] = []
+
+    def take(self, number: int, point: TapePoint, free: Array, pushed: Array) -> None:
+        """Take a point.
+
+        Parameters
+        ----------
+        number, point : of the point, and the point
+        free, pushed : (d n + k,) and (d - 1, n) how the output changes with its load, and with friction directly
+        """
+        self.numbers.append(number)
+        self._points.append(point)
+        self._free.append(free)
+        self._pushed.append(pushed)
+
+    def stack(self, direct: Mapping[int, Array]) -> TermStack:
+        """The terms of the points, with what is known directly of some; what they ask of friction goes to the bound."""
+        free = np.stack(self._free)
+        motion, resultant = self.system.condensed.free_transposed(free)
+        for k, i in enumerate(self.numbers):
+            if i in direct:
+                motion[k] += direct[i]
+        self._add_friction(free)
+        return TermStack(system=self.system, numbers=self.numbers, motion=motion, resultant=resultant)
+
+    def _add_friction(self, free: Array) -> None:
+        """How the output changes with the bound of pairs that slip: forces of that size beside all that is imposed."""
+        states = [point.states for point in self._points]
+        units = np.stack([known.unit for known in states])
+        if not units.any():
+            return
+        image, (_, tangents, n) = self.system.law.image, units.shape
+        rows, last = n, (1 + tangents) * n
+        pushed = free[:, :last] @ image.A[:, rows:] + free[:, last:] @ image.R[rows:].T
+        size = (units * (np.stack(self._pushed) + pushed.reshape(units.shape))).sum(axis=1)
+        pressing = size * np.maximum(np.stack([point.r[0] for point in self._points]), 0.0)
+        branch = np.stack([known.branch for known in states])
+        for j in range(len(self.bound.starts)):
+            on = branch == j
+            self.bound.starts[j] += np.where(on, size, 0.0).sum(axis=0)
+            self.bound.slopes[j] += np.where(on, pressing, 0.0).sum(axis=0)
 
 
 def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
@@ -133,6 +230,7 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
         system, states = point.system, point.states
         if system not in bounds:
             bounds[system] = change.bound(system)
+        system.ahead((points[j].system, points[j].states) for j in range(i, len(points)))
         every = (system.directions, len(system.condensed.active))
         memory = np.zeros((every[0] - 1, every[1])) if memory is None else memory
         bound, (held, given) = bounds[system], np.zeros((2, system.directions, system.pairs))
@@ -159,62 +257,67 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
     return found
 
 
-def backward(points: Sequence[TapePoint], weights: Mapping[int, Weights]) -> Adjoint:
+def backward(
+    points: Sequence[TapePoint], weights: Mapping[int, Weights], direct: Mapping[int, Array] = MappingProxyType({})
+) -> Adjoint:
     """An output by everything that drives the points.
 
     Parameters
     ----------
     points : of the history
     weights : how the output changes with motions and forces, by number of the point
+    direct : (d, a) per length, with motions of the active pairs directly, by number of the point
     """
-    terms: dict[int, PointTerm] = {}
-    bounds: dict[InterfaceSystem, BoundTerm] = {}
-    memory: Array | None = None
+    passed: dict[InterfaceSystem, _Passed] = {}
+    memory: Array | None = None  # (d - 1, n) of the active pairs of the system, scaled
+    system: InterfaceSystem | None = None
     moves = 0.0  # how the output changes with the part of the leg that is behind where the next piece begins
     for i in range(max(weights, default=-1), -1, -1):
-        point = points[i]
-        system, states = point.system, point.states
-        if memory is None:
-            memory = np.zeros((system.directions - 1, len(system.condensed.active)))
-        h, r = (np.zeros((system.directions, system.pairs)) for _ in range(2))
+        point, states = points[i], points[i].states
+        if point.system is not system:
+            memory, system = _handed(memory, system, point.system), point.system
+            known = passed.setdefault(system, _Passed(system))
+        assert memory is not None
+        moves = moves if i + 1 < len(points) and points[i + 1].leg == point.leg else 0.0
+        h, r = np.zeros((2, system.directions, system.pairs))
         if i in weights:
             h, r = weights[i].h[:, system.active] / system.root, weights[i].r[:, system.active] * system.root
-        h[1:] += memory[:, system.active] / system.root
-        memory = np.zeros_like(memory)
-        held = np.where(states.held, h[1:], 0.0)
-        h[1:] -= held
-        moves = moves if i + 1 < len(points) and points[i + 1].leg == point.leg else 0.0
-        if h.any() or r.any() or moves:
-            known = bounds.setdefault(system, BoundTerm.of(system.law.pieces))
+        h[1:] += memory
+        memory = np.where(states.held, h[1:], 0.0)
+        h[1:] -= memory
+        if h.any() or r.any() or moves or i in direct:
+            system.ahead((points[j].system, points[j].states) for j in range(i, -1, -1))
             if point.at_event or point.follows:
                 h_rate, r_rate = _rates(point)
                 moves += float(np.vdot(h, h_rate) + np.vdot(r, r_rate))
             if point.at_event:
-                _through_event(point, h, r, known, moves)
+                _through_event(point, h, r, known.bound, moves)
             free = system.respond_transposed(states, h, r)
-            motion, resultant = system.condensed.free_transposed(free)
-            terms[i] = PointTerm(motion=motion, resultant=resultant)
-            rows, image = h.size, system.law.image
-            c = free[:rows]
-            pushed = r + (image.A @ c + image.R @ free[rows:]).reshape(r.shape)
-            _of_friction(point, (states.unit * pushed[1:]).sum(axis=0), known)
-            held += (h - c.reshape(h.shape))[1:]
+            known.take(i, point, free, r[1:])
+            memory += (h - free[: h.size].reshape(h.shape))[1:]
         moves = moves if point.follows else 0.0
-        memory[:, system.active] = system.root * held
-    return Adjoint(terms=terms, bounds=bounds)
+    stacks = tuple(one.stack(direct) for one in passed.values() if one.numbers)
+    return Adjoint(stacks=stacks, bounds={system: one.bound for system, one in passed.items()})
+
+
+def _handed(memory: Array | None, before: InterfaceSystem | None, system: InterfaceSystem) -> Array:
+    """(d - 1, n) How an output changes with what is remembered of the active pairs of a system, scaled.
+
+    Parameters
+    ----------
+    memory, before : the same of another system, which follows; None where nothing does
+    system : the system
+    """
+    whole = np.zeros((system.directions - 1, len(system.condensed.active)))
+    if memory is not None and before is not None:
+        whole[:, before.active] = before.root * memory
+    return np.asarray(whole[:, system.active] / system.root)
 
 
 def _on_branches(bound: BoundTerm, branch: IntArray, p: Array) -> Array:
     """(n,) What a change of the bound changes of it on its branches under normal forces p."""
     pairs = np.arange(len(p))
     return np.asarray(bound.starts[branch, pairs] + bound.slopes[branch, pairs] * p)
-
-
-def _of_friction(point: TapePoint, size: Array, term: BoundTerm) -> None:
-    """Add what a size of the friction bound (n,) of pairs that slip changes of an output."""
-    branch, pairs = point.states.branch, np.arange(len(size))
-    term.starts[branch, pairs] += size
-    term.slopes[branch, pairs] += size * np.maximum(point.r[0], 0.0)
 
 
 def change_of_conditions(point: TapePoint, change: PointChange) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -18,6 +19,23 @@ from signorini.interface.interface import Interface
 from signorini.model.model import Model
 
 _SAME_LOAD = 1e-9  # of a step: load factors that are one
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FrictionHistory:
+    """Tangential motions and friction at all points of a history, of all pairs.
+
+    Attributes
+    ----------
+    h, r : (p, d - 1, n) motions since the beginning, length, and forces
+    active : (p, n) pairs that the law is asked of
+    late : (p, n) 1 of pairs that slip under the friction at the end of a piece, 0 of those under its mean
+    """
+
+    h: Array
+    r: Array
+    active: BoolArray
+    late: Array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -89,6 +107,23 @@ class HistoryView:
     def displacement(self, i: int) -> Array:
         """(dofs,) Displacements at a point."""
         return displacements([self.points[i]])[:, 0]
+
+    @cached_property
+    def friction(self) -> FrictionHistory:
+        """Tangential motions and friction at all points."""
+        points, n = self.points, len(self.interface)
+        d = points[0].system.directions
+        h, r = np.zeros((2, len(points), d - 1, n))
+        active, late = np.zeros((len(points), n), dtype=np.bool_), np.zeros((len(points), n))
+        for system in dict.fromkeys(point.system for point in points):
+            own = np.array([i for i, point in enumerate(points) if point.system is system])
+            at = own[:, None, None], np.arange(d - 1)[:, None], system.active
+            h[at] = np.stack([points[i].h[1:] for i in own]) / system.root
+            r[at] = np.stack([points[i].r[1:] for i in own]) * system.root
+            active[own[:, None], system.active] = True
+            for i in own:
+                late[i, system.active] = points[i].increment
+        return FrictionHistory(h=h, r=r, active=active, late=late)
 
     def _whole(self, i: int, rows: Array) -> Array:
         system = self.points[i].system

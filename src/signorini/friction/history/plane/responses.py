@@ -93,27 +93,6 @@ class Responses:
             self.inverse.move_to(state)
             self._state = state.copy()
 
-    def respond_transposed(self, state: IntArray, h: Array, r: Array) -> Array:
-        """(2n + k,) The transpose of `respond`: what a functional of motions and forces is of the load.
-
-        Parameters
-        ----------
-        state : (n,)
-        h, r : (2, n) the functional
-
-        Raises
-        ------
-        SingularState
-            Where the state has no unique response.
-        """
-        self._move_to(state)
-        unknowns, rows = self.inverse.unknowns, self.inverse.rows
-        seen, pushed = np.zeros(rows), np.zeros(rows)
-        seen[: h.size] = h.ravel()
-        seen[unknowns] = 0.0
-        pushed[: r.size] = np.concatenate([r[0] + self.inverse.slope * r[1], r[1]])
-        return self.inverse.solve_transposed(pushed[unknowns], seen)
-
     def rates(self, state: IntArray, load: Array) -> Rates:
         """The rates of a state, (n,), under a load rate, (2n,), refined; raises SingularState."""
         h, r = self.respond(state, self.free(load))

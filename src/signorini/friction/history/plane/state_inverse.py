@@ -78,6 +78,20 @@ class StateInverse:
         """(m,) Those of the present state."""
         return self._list[: self._count]
 
+    @property
+    def matrix(self) -> Array:
+        """(m, m) The inverse of the present state: a view, rows and columns by the places of the unknowns."""
+        return self._inverse[: self._count, : self._count]
+
+    @property
+    def place(self) -> IntArray:
+        """(2n + k,) Of each unknown among those of the present state, -1 of others."""
+        return self._place
+
+    def seen(self, x: Array) -> Array:
+        """(2n + k,) What all equations see of unknowns, (m,)."""
+        return np.asarray(self._columns[:, : self._count] @ x)
+
     def move_to(self, state: IntArray) -> None:
         """Make it the inverse of another state.
 
@@ -101,20 +115,8 @@ class StateInverse:
         ----------
         free : (2n + k,) what the equations see of a load alone
         """
-        m = self._count
-        x = -(self._inverse[:m, :m] @ free[self.unknowns])
-        return x, free + self._columns[:, :m] @ x
-
-    def solve_transposed(self, x: Array, seen: Array) -> Array:
-        """(2n + k,) The transpose of `solve`: what a functional of its results is of ``free``.
-
-        Parameters
-        ----------
-        x, seen : (m,) and (2n + k,) the functional, of the unknowns and of what all equations see
-        """
-        m, free = self._count, seen.copy()
-        free[self.unknowns] -= self._inverse[:m, :m].T @ (x + self._columns[:, :m].T @ seen)
-        return free
+        x = -(self.matrix @ free[self.unknowns])
+        return x, free + self.seen(x)
 
     def _invert(self, state: IntArray) -> None:
         self._state, self._age = None, 0
