@@ -122,7 +122,13 @@ class TermStack:
     resultant: Array
 
     def of(self, motion: Array, resultant: Array, factors: Array) -> float:
-        """What motions (d, a) and resultants (k,), at every point times a factor (p,), change of the output."""
+        """What the same motions and resultants at every point, times a factor each, change of the output.
+
+        Parameters
+        ----------
+        motion, resultant : (d, a) length and (k,) force
+        factors : (p,)
+        """
         of_motion, of_resultant = np.tensordot(factors, self.motion, axes=1), factors @ self.resultant
         return float(np.vdot(of_motion, motion) + of_resultant @ resultant)
 

@@ -80,7 +80,12 @@ class StateBlocks:
             self._move_to(first, np.zeros_like(self._may))
 
     def respond(self, state: IntArray, free: Array) -> tuple[Array, Array]:
-        """Motion and force, (2, n), of a load as the equations see it, (2n + k,), see `Responses.respond`.
+        """Motion and force, (2, n), of a load as the equations see it, see `Responses.respond`.
+
+        Parameters
+        ----------
+        state : (n,) codes
+        free : (2n + k,) of the load
 
         Raises
         ------
@@ -104,7 +109,12 @@ class StateBlocks:
         return seen[: 2 * n].reshape(2, n), r
 
     def respond_transposed(self, state: IntArray, h: Array, r: Array) -> Array:
-        """(2n + k,) The transpose of `respond`: what a functional of motions and forces (2, n) is of the load.
+        """(2n + k,) The transpose of `respond`: what a functional of motions and forces is of the load.
+
+        Parameters
+        ----------
+        state : (n,) codes
+        h, r : (2, n) the functional
 
         Raises
         ------
