@@ -16,9 +16,11 @@ from signorini.gallery.cohesion import (
     BAR_AREA,
     BAR_LENGTH,
     BAR_MODULUS,
+    CRACK,
     bonded_bar,
     cantilever,
 )
+from signorini.reference.peeling import peel
 
 STIFFNESS = BAR_MODULUS * BAR_AREA / BAR_LENGTH
 GENTLE = sg.Cohesion(5.0, opening=0.02)  # its tension falls by 250 per length, that of the bar by 1000
@@ -55,6 +57,16 @@ def test_a_bar_is_drawn_off_let_go_and_drawn_again_on_the_lines_of_its_bond(comp
     events = [(event.what, round(event.load_factor, 9)) for event in solution.steps[1].events]
     assert events == [("softens", round(1.0 + (5.0 * soft - 0.004) / 0.008, 9))]
     assert [event.what for event in solution.steps[5].events] == ["breaks"]
+
+
+@pytest.mark.parametrize("kind", ["axisymmetric", "3d"])
+def test_bonds_open_together_where_none_can_open_alone(kind):
+    """Of few nodes one opens more than others in a motion that nothing resists, but these unload on a steeper line."""
+    bond = sg.Cohesion(5.0, opening=0.02) if kind == "axisymmetric" else sg.Cohesion(5.0, opening=0.03)
+    step = sg.solve(bonded_bar(bond, 0.012, kind=kind, compliance=1e-3)).steps[0]
+    opening = (6.0 - 5.0) / (500.0 - 5.0 / bond.opening)
+    assert_allclose(-step.contacts[0].pressure, (0.012 - opening) / 0.002, rtol=1e-12)
+    assert step.released == 0.0
 
 
 @pytest.mark.parametrize("opening", [0.0, 0.002])
@@ -102,6 +114,18 @@ def test_an_arm_is_peeled_off_by_the_moment_of_beam_theory():
         assert abs(step.rigid_bodies["grip"].moment) == pytest.approx(limit, rel=5e-3)
         assert step.released == 0.0
         assert abs(step.energy_defect) < 1e-12 * step.work
+
+
+def test_a_brittle_arm_lets_go_at_griffiths_load_in_first_order():
+    bond, off = sg.Cohesion(3.0, shear="free"), []
+    expected = peel(strength=3.0, compliance=0.02, crack=CRACK + 1.0, modulus=ARM_MODULUS, height=ARM_HEIGHT)
+    for cells in (32, 64):
+        step = sg.solve(cantilever(bond, lift=0.36, cells=cells, compliance=0.02)).steps[0]
+        breaks = [event.load_factor for event in step.events if event.what == "breaks"]
+        off.append(0.36 * breaks[cells // 16] / expected.lift - 1.0)
+        assert abs(step.energy_defect) < 1e-12 * step.work
+    assert off[1] == pytest.approx(0.5 * off[0], rel=0.05)
+    assert 2.0 * off[1] == pytest.approx(off[0], abs=2e-3)
 
 
 def test_a_certificate_asks_the_law_of_the_bond():

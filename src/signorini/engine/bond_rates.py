@@ -4,7 +4,8 @@
 Bonds that open are springs between the sides, of which those that soften have a negative stiffness. While the states of
 all other pairs stay what they are, tensions, motions and forces are linear in the load, and one dense system of the
 pairs that are closed and the springs gives their rates. Springs that soften are in stable equilibrium with the bodies
-as long as that system has as many negative eigenvalues as springs that soften and rigid motions (Sylvester's law).
+as long as that system has as many negative eigenvalues as springs that soften and rigid motions (Sylvester's law). In a
+motion that has not that some springs may close: those do not soften but unload, so the others are looked at alone.
 """
 
 from __future__ import annotations
@@ -153,6 +154,8 @@ def course(
     cohesion, bonds = bonds_of(prepared, state)
     full = cohesion.holds(bonds) & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most)
     soft, none = sheared & ~driven & full, np.zeros_like(driven)
+    together: BondCourse | None = None
+    shut = letting_go = none
     for trial in range(_TRIALS):
         posed = pose(prepared, state, soft, driven, sheared, codes)
         start = path_state(posed.prepared, posed.state)
@@ -164,26 +167,53 @@ def course(
         if rates is None:
             return BondCourse(posed=posed, pull=change, breaking=none)
         motion, force, stable = rates
+        torn, closes = _turning(posed, motion, force)
+        settled = not (torn | closes).any()
+        if not stable and together is None:
+            opening = _unresisted(posed, start, codes)
+            letting_go, shut = np.abs(opening) >= (1.0 - _ALIKE) * np.abs(opening).max(), soft & (opening < 0.0)
+        if not stable and together is None and settled and shut.any():
+            # bonds that close unload, and resist: those that open alone have to be stable, and not to go on alone
+            together = _gone_on(posed, change, motion)
+            soft = soft & ~shut
+            continue
         if not stable:
-            return BondCourse(posed=posed, pull=change, breaking=_letting_go(posed, start, codes))
-        full, most = _STILL * float(np.abs(motion).max(initial=0.0)), _STILL * float(np.abs(force).max(initial=0.0))
-        torn = posed.held & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most) & (force[0] < -most)
-        edge = bonds.damage * cohesion.opening
-        torn |= posed.back & (state.gap >= (1.0 - _AT_LIMIT) * edge) & (motion > full)
-        brittle = torn & (cohesion.opening == 0.0)
-        grows = (state.forces[1:] * force[1:]).sum(axis=0) > 0.0
-        brittle |= full_along(prepared, state) & posed.held & (cohesion.opening == 0.0) & grows
+            return BondCourse(posed=posed, pull=change, breaking=letting_go)
+        brittle = (torn | _slipping_off(posed, force)) & (cohesion.opening == 0.0)
         if brittle.any():
             return BondCourse(posed=posed, pull=change, breaking=brittle)
-        closes = soft & (motion < -full)
-        if not (torn | closes).any():
-            change[0] -= np.where(posed.springs, stiffness(posed) * motion, 0.0)
-            return BondCourse(posed=posed, pull=change, breaking=none)
+        if together is not None and (torn & shut).any():
+            return together
+        if settled:
+            return _gone_on(posed, change, motion)
         if trial >= _TRIALS_TOGETHER:
             first = np.arange(len(soft)) == int(np.argmax(torn | closes))
             torn, closes = torn & first, closes & first
         soft = (soft | torn) & ~closes
     return BondCourse(posed=posed, pull=change, breaking=soft)
+
+
+def _gone_on(posed: Posed, change: Array, motion: Array) -> BondCourse:
+    """Bonds that go on gradually; ``change`` (d, n) of given forces and ``motion`` (n,) up to the end of the way."""
+    pull = change.copy()
+    pull[0] -= np.where(posed.springs, stiffness(posed) * motion, 0.0)
+    return BondCourse(posed=posed, pull=pull, breaking=np.zeros_like(posed.soft))
+
+
+def _turning(posed: Posed, motion: Array, force: Array) -> tuple[BoolArray, BoolArray]:
+    """(n,) each: bonds at their limit that the rates (n,), (d, n) open farther, and that soften and close."""
+    (cohesion, bonds), state = bonds_of(posed.prepared, posed.state), posed.state
+    still, least = (_STILL * float(np.abs(rate).max(initial=0.0)) for rate in (motion, force))
+    torn = posed.held & (state.forces[0] <= -(1.0 - _AT_LIMIT) * cohesion.most) & (force[0] < -least)
+    edge = bonds.damage * cohesion.opening
+    torn |= posed.back & (state.gap >= (1.0 - _AT_LIMIT) * edge) & (motion > still)
+    return np.asarray(torn), np.asarray(posed.soft & (motion < -still))
+
+
+def _slipping_off(posed: Posed, force: Array) -> BoolArray:
+    """(n,) Bonds that bear as much along the sides as they can, and more at rates (d, n) of forces."""
+    grows = (posed.state.forces[1:] * force[1:]).sum(axis=0) > 0.0
+    return np.asarray(full_along(posed.prepared, posed.state) & posed.held & grows)
 
 
 def left_shear(prepared: Prepared, state: State) -> BoolArray:
@@ -229,15 +259,15 @@ def _rates(posed: Posed, start: PathState, b: Array, codes: IntArray | None) -> 
     return motion, force, system.stable
 
 
-def _letting_go(posed: Posed, start: PathState, codes: IntArray | None) -> BoolArray:
-    """(n,) The bond that softens and opens most in the motion that springs do not resist, with those like it."""
+def _unresisted(posed: Posed, start: PathState, codes: IntArray | None) -> Array:
+    """(n,) Opening of bonds that soften in the motion that springs resist least, the largest positive; 0 of others."""
     system = _System.of(posed, start, codes)
     condensed, cohesion = posed.prepared.paths.condensed, bonds_of(posed.prepared, posed.state)[0]
     own, root, found = np.flatnonzero(condensed.active)[system.springs], condensed.root, np.zeros(len(posed.soft))
     weights = np.diag(cohesion.most[own] / root[system.springs] ** 2)
     motion = scipy.linalg.eigh(system.seen, weights)[1][:, 0] / root[system.springs]
-    found[own] = np.abs(motion) * posed.soft[own]
-    return np.asarray(found >= (1.0 - _ALIKE) * found.max())
+    found[own] = motion * posed.soft[own]
+    return found if found.max() >= -found.min() else -found
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -9,9 +9,11 @@ import numpy as np
 
 from signorini.law.cohesion import Cohesion
 from signorini.meshing.plane import rectangle
+from signorini.meshing.solid import box
 from signorini.model.body import Body
 from signorini.model.conditions import Support
 from signorini.model.contact import Contact
+from signorini.model.kind import Kind
 from signorini.model.links import RigidBody
 from signorini.model.material import Elastic
 from signorini.model.mesh import Mesh
@@ -30,7 +32,12 @@ ARM_BOND = Cohesion(10.0, opening=0.006, shear="free")
 
 
 def bonded_bar(
-    cohesion: Cohesion, stretch: float = 0.0, *, compliance: float = 0.0, steps: Sequence[Step] | None = None
+    cohesion: Cohesion,
+    stretch: float = 0.0,
+    *,
+    kind: Kind = "plane stress",
+    compliance: float = 0.0,
+    steps: Sequence[Step] | None = None,
 ) -> Model:
     """A bar that is bonded to a plane and drawn off it by its other end, at factor 1 of "pull" by a stretch.
 
@@ -38,16 +45,26 @@ def bonded_bar(
     ----------
     cohesion : of the bond
     stretch : length
+    kind : of the model: a strip, a plug of the area's width as radius, or a bar in space
     compliance : of the interface, length per pressure
     steps : of its history; one to all of "pull" where not given
     """
+    solid = kind == "3d"
+    strip = rectangle(width=BAR_AREA, height=BAR_LENGTH, nx=1, ny=2)
+    across = (0.0,) * (2 if solid else 1)
     return Model(
-        rectangle(width=BAR_AREA, height=BAR_LENGTH, nx=1, ny=2),
-        kind="plane stress",
+        box(x=[0.0, BAR_AREA], y=[0.0, 1.0], z=[0.0, 0.5 * BAR_LENGTH, BAR_LENGTH]) if solid else strip,
+        kind=kind,
         bodies=[Body("block", Elastic(E=BAR_MODULUS, nu=0.0))],
-        supports=[Support("top", u=(0.0, stretch), name="pull")],
+        supports=[Support("top", u=(*across, stretch), name="pull")],
         contacts=[
-            Contact("bottom", Plane((0, 0), (0, 1)), cohesion=cohesion, normal_compliance=compliance, name="bond")
+            Contact(
+                "bottom",
+                Plane((*across, 0.0), (*across, 1.0)),
+                cohesion=cohesion,
+                normal_compliance=compliance,
+                name="bond",
+            )
         ],
         steps=[Step()] if steps is None else steps,
     )
@@ -61,6 +78,7 @@ def cantilever(
     cells: int = 64,
     compliance: float = 0.0,
     steps: Sequence[Step] | None = None,
+    solid: bool = False,
 ) -> Model:
     """One arm of a double cantilever beam, bonded to the plane of symmetry, which takes half of the energy of the bond.
 
@@ -73,8 +91,10 @@ def cantilever(
     cells : along the arm
     compliance : of the interface, length per pressure
     steps : of its history; one to all of "peel" where not given
+    solid : in space, a strip of unit width that does not contract, instead of in the plane
     """
-    arm = rectangle(x=np.linspace(0.0, ARM_LENGTH, cells + 1), y=np.linspace(0.0, ARM_HEIGHT, 4))
+    along, up = np.linspace(0.0, ARM_LENGTH, cells + 1), np.linspace(0.0, ARM_HEIGHT, 4)
+    arm = box(x=along, y=[0.0, 1.0], z=up) if solid else rectangle(x=along, y=up)
     bottom = arm.boundaries["bottom"]
     (facets,) = bottom if isinstance(bottom, tuple) else (bottom,)
     bonded = facets[arm.points[facets, 0].min(axis=1) >= CRACK - 1e-9 * ARM_LENGTH]
@@ -84,13 +104,24 @@ def cantilever(
         bodies={"arm": np.arange(arm.number_of_cells)},
         boundaries={"end": arm.boundaries["left"], "far": arm.boundaries["right"], "bond": bonded},
     )
-    given = (0.0, lift, None) if lift else (0.0, None, -rotation)
+    across = (0.0,) if solid else ()
+    lifted = (0.0, *across, lift) if lift else (0.0, *across, None)
+    turned = ((0.0, None, 0.0) if lift else (0.0, rotation, 0.0)) if solid else (None if lift else -rotation,)
+    normal = (0.0, *across, 1.0)
     return Model(
         mesh,
-        kind="plane stress",
+        kind="3d" if solid else "plane stress",
         bodies=[Body("arm", Elastic(E=ARM_MODULUS, nu=0.0), formulation="incompatible")],
-        rigid_bodies=[RigidBody("grip", on="end", point=(0.0, 0.5 * ARM_HEIGHT))],
-        supports=[Support("grip", u=given, name="peel")],
-        contacts=[Contact("bond", Plane((0, 0), (0, 1)), cohesion=cohesion, normal_compliance=compliance, name="bond")],
+        rigid_bodies=[RigidBody("grip", on="end", point=tuple(0.5 * part for part in (0.0, *across, ARM_HEIGHT)))],
+        supports=[Support("grip", u=(*lifted, *turned), name="peel")],
+        contacts=[
+            Contact(
+                "bond",
+                Plane((0.0,) * len(normal), normal),
+                cohesion=cohesion,
+                normal_compliance=compliance,
+                name="bond",
+            )
+        ],
         steps=[Step()] if steps is None else steps,
     )

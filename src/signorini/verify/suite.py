@@ -109,6 +109,8 @@ QUICK: tuple[Case, ...] = (
     closures.layer_that_wears,
     cohesion.bar_torn_off,
     cohesion.double_cantilever,
+    cohesion.strip_in_space,
+    cohesion.brittle_arm,
     twist.torsion_of_a_shaft,
     twist.shaft_that_yields,
     twist.torque_of_a_press_fit,
