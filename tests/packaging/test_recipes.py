@@ -107,3 +107,15 @@ def test_versions_agree():
     dockerfile = (ROOT / "packaging" / "Dockerfile").read_text()
     tested = re.findall(r"Python :: (3\.\d+)", " ".join(PROJECT["classifiers"]))
     assert re.search(r"FROM python:(3\.\d+)", dockerfile)[1] in tested
+
+
+def test_rattler_build_understands_the_recipe():
+    """Its own parser renders it, without any channel; what is built would need one."""
+    rattler_build = pytest.importorskip("rattler_build")
+    recipe = rattler_build.Stage0Recipe.from_file(str(ROOT / "packaging" / "conda" / "recipe.yaml"))
+    (variant,) = recipe.render(rattler_build.VariantConfig(), rattler_build.RenderConfig())
+    found = variant.recipe.to_dict()
+    assert found["package"] == {"name": "signorini", "version": __version__}
+    assert found["build"]["noarch"] == "python"
+    assert len(found["requirements"]["run"]) == 1 + len(PROJECT["dependencies"])
+    assert all((ROOT / name).is_file() for name in found["about"]["license_file"])

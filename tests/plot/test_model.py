@@ -53,6 +53,13 @@ def test_boundaries_and_bodies_are_named_and_what_has_no_arrow_is_said():
     assert axes.get_xlabel() == "x"
 
 
+def test_names_stand_in_the_middle_of_their_boundaries_however_fine_the_mesh_is_at_one_end():
+    x = np.concatenate([np.linspace(0.0, 0.1, 30), np.linspace(0.2, 2.0, 10)])
+    (axes,) = sg.Model(sg.rectangle(x=x, y=[0.0, 1.0]), bodies=[BLOCK]).plot().axes
+    (top,) = [text for text in axes.texts if text.get_text() == "top"]
+    assert abs(top.get_position()[0] - 1.0) < 0.11
+
+
 @pytest.mark.parametrize("name", ["bolted_joint", "ball_on_block", "wear"])
 def test_examples_are_drawn(name, tmp_path):
     figure = sg.read(EXAMPLES / f"{name}.toml").plot()

@@ -72,7 +72,7 @@ def mesh_geometry(path: Path, mesh: Path) -> None:
             f"'{path}' is a geometry, which Gmsh must mesh, and there is no Gmsh ({brief(error)}); expected "
             "pip install 'signorini[gmsh]', or a mesh (gmsh -2 or -3, saved as .msh)",
             where=("mesh", "file"),
-        ) from error
+        ) from None
     _check_harmless(path)
     gmsh.initialize(interruptible=False)
     try:

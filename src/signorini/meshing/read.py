@@ -121,7 +121,7 @@ def _opened(path: Path, where: Where) -> tuple[meshio.Mesh, dict[str, dict[str, 
     try:
         found = open_mesh(path)
     except InputError as error:
-        raise InputError(error.message, where=where) from error
+        raise InputError(error.message, where=where) from error.__cause__
     return found, *_named_parts(found, path)
 
 

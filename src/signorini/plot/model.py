@@ -155,9 +155,10 @@ def _draw_boundary(stage: _Stage, name: str, blocks: list[IntArray], colour: str
         else:
             shade = PolyCollection(corners, facecolors=colour, alpha=0.16, edgecolors="none", zorder=3)
             stage.axes.add_collection(shade, autolim=False)
-    own = np.unique(np.concatenate([facets.ravel() for facets in blocks]))
-    middle = stage.points[own].mean(axis=0)
-    at = stage.points[own[np.argmin(np.linalg.norm(stage.points[own] - middle, axis=1))]]
+    centres = np.concatenate([stage.points[facets].mean(axis=1) for facets in blocks])
+    sizes = np.concatenate([np.linalg.norm(np.ptp(stage.points[facets], axis=1), axis=1) for facets in blocks])
+    middle = np.average(centres, axis=0, weights=sizes ** (1 if stage.camera is None else 2))
+    at = centres[np.argmin(np.linalg.norm(centres - middle, axis=1))]
     box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 1.0}
     stage.axes.text(
         float(at[0]), float(at[1]), name, fontsize=8.5, color=colour, ha="center", va="center", bbox=box, zorder=6
