@@ -80,17 +80,33 @@ def test_libraries_that_are_not_installed_are_named(monkeypatch, function, libra
         getattr(sg, library)(function)
 
 
-def test_jax_differentiates_it(function):
+@pytest.fixture(scope="module")
+def small():
+    """Few parameters, for checks that go through all of them several times."""
+    return sg.prepare(rig()).function(["friction.joint", "support.down"], OUTPUTS[:2])
+
+
+def test_jax_differentiates_it(function, small):
     jax = pytest.importorskip("jax", reason="JAX is an extra that is not installed")
     jax.config.update("jax_enable_x64", True)
     weights = np.array([1.0, 2.0, 3.0])
     gradient = jax.grad(lambda x: sg.jax(function)(x) @ weights)(jax.numpy.asarray(function.start))
     assert np.asarray(gradient) == pytest.approx(function(function.start)[1](weights), rel=1e-12)
+    wrapped, x = sg.jax(small), jax.numpy.asarray(small.start)
+    assert np.asarray(jax.jit(jax.jacrev(wrapped))(x)) == pytest.approx(small.jacobian(small.start), rel=1e-9)
+    several = jax.vmap(wrapped)(jax.numpy.stack([x, 1.01 * x]))
+    assert np.asarray(several[1]) == pytest.approx(small.values(1.01 * small.start), rel=1e-12)
 
 
-def test_torch_differentiates_it(function):
+def test_torch_differentiates_it(function, small):
     torch = pytest.importorskip("torch", reason="PyTorch is an extra that is not installed")
     x = torch.tensor(function.start, requires_grad=True)
     weights = torch.tensor([1.0, 2.0, 3.0], dtype=torch.float64)
     (sg.torch(function)(x) @ weights).backward()
     assert x.grad.numpy() == pytest.approx(function(function.start)[1](weights.numpy()), rel=1e-12)
+    wrapped, few = sg.torch(small), torch.tensor(small.start, requires_grad=True)
+    assert torch.autograd.gradcheck(wrapped, (few,), eps=1e-6, atol=1e-4, nondet_tol=1e-9)
+    short = torch.tensor(small.start, dtype=torch.float32, requires_grad=True)
+    answers = wrapped(short)
+    answers.sum().backward()
+    assert answers.dtype == short.grad.dtype == torch.float32

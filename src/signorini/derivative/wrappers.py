@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -24,17 +25,19 @@ def jax(function: AnswerFunction) -> Any:
     """
     library = _library("jax")
 
-    def shape(count: int) -> Any:
-        return library.ShapeDtypeStruct((count,), library.numpy.result_type(float))
+    def called(answer: Callable[..., Any], count: int, *given: Any) -> Any:
+        shape = library.ShapeDtypeStruct((count,), library.numpy.result_type(float))
+        # one history after the other where JAX maps over several
+        return library.pure_callback(answer, shape, *given, vmap_method="sequential")
 
     def values(x: Any) -> Any:
-        return library.pure_callback(lambda at: function.values(np.asarray(at)), shape(len(function.outputs)), x)
+        return called(lambda at: function.values(np.asarray(at)), len(function.outputs), x)
 
     def pulled(x: Any, weights: Any) -> tuple[Any]:
         def vjp(at: Any, given: Any) -> Any:
             return function(np.asarray(at))[1](np.asarray(given))
 
-        return (library.pure_callback(vjp, shape(len(function.start)), x, weights),)
+        return (called(vjp, len(function.start), x, weights),)
 
     wrapped = library.custom_vjp(values)
     wrapped.defvjp(lambda x: (values(x), x), pulled)
@@ -42,7 +45,10 @@ def jax(function: AnswerFunction) -> Any:
 
 
 def torch(function: AnswerFunction) -> Any:
-    """The function for PyTorch: a callable of a tensor (n,) of 64-bit numbers that gives one (m,).
+    """The function for PyTorch: a callable of a tensor (n,) that gives one (m,), differentiable once backwards.
+
+    Numbers have as many digits as those of the tensor: 64-bit ones are meant. Derivatives of one history may differ in
+    their last digits (``gradcheck(..., nondet_tol=1e-9)``): its pairs are factorised from one state to the next.
 
     Raises
     ------
@@ -57,13 +63,15 @@ def torch(function: AnswerFunction) -> Any:
         @staticmethod
         def forward(ctx: Any, x: Any) -> Any:
             """The answers."""
-            found, ctx.vjp = function(x.detach().numpy())
-            return library.from_numpy(found)
+            found, ctx.vjp = function(x.detach().cpu().numpy())
+            ctx.like = x.detach()
+            return library.from_numpy(found).to(ctx.like)
 
         @staticmethod
+        @library.autograd.function.once_differentiable  # type: ignore[untyped-decorator]
         def backward(ctx: Any, weights: Any) -> Any:
             """The derivatives of their weighted sum."""
-            return library.from_numpy(ctx.vjp(weights.numpy()))
+            return library.from_numpy(ctx.vjp(weights.cpu().numpy())).to(ctx.like)
 
     return Answers.apply
 
