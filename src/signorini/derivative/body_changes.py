@@ -19,7 +19,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
-from signorini.derivative.body_side import BodySide
+from signorini.derivative.body_side import BodySide, multiplier
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.low_rank import StateColumns, state_columns
 from signorini.derivative.pair_change import PairChange
@@ -56,9 +56,8 @@ class BodyChange:
     @cached_property
     def loads(self) -> Mapping[str, Array]:
         """(dofs,) f' at factor 1, of loads that change."""
-        multiplied = self.prepared.multiplied
         found = {
-            name: multiplied.get(name, 1.0) * (f - self.low.loads[name]) / (2.0 * self.step)
+            name: multiplier(self.prepared, name) * (f - self.low.loads[name]) / (2.0 * self.step)
             for name, f in self.high.loads.items()
         }
         return {name: f for name, f in found.items() if f.any()}

@@ -11,6 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
+from signorini.engine.prepare import Prepared
 from signorini.errors import InputError
 from signorini.fem.foundation import make_springs
 from signorini.fem.kinematics import of_bodies, straining_groups
@@ -82,6 +83,12 @@ def pairs_at(space: Space, model: Model, constraints: Constraints) -> Interface:
     return (sector_interface if model.cyclic_symmetries else make_interface)(space, model, constraints)
 
 
+def multiplier(prepared: Prepared, name: str) -> float:
+    """What a prepared model multiplies a load of its model by; temperatures are so in the model already."""
+    hot = any(load.label == name and load.temperature is not None for load in prepared.model.loads)
+    return 1.0 if hot else prepared.multiplied.get(name, 1.0)
+
+
 def moved_side(space: Space, model: Model, motion: Array) -> BodySide:
     """Bodies whose nodes a motion (nodes, d), length, takes elsewhere before anything is loaded.
 
@@ -97,7 +104,7 @@ def moved_side(space: Space, model: Model, motion: Array) -> BodySide:
         Where supports or rigid bodies would hold the moved nodes otherwise.
     """
     side = BodySide(model=model, space=space.at(space.mesh.points + motion, space.displacement))
-    if _places_matter(model):
+    if places_matter(model):
         here, there = (make_constraints(where, model) for where in (space, side.space))
         changed = abs(here.transform - there.transform).max() if here.transform.nnz else 0.0
         if changed > 0.0 or any((there.prescribed[name] != u).any() for name, u in here.prescribed.items()):
@@ -106,7 +113,7 @@ def moved_side(space: Space, model: Model, motion: Array) -> BodySide:
     return side
 
 
-def _places_matter(model: Model) -> bool:
+def places_matter(model: Model) -> bool:
     """Whether what holds a node depends on where it is."""
     varying = any(not isinstance(part, float | int | None) for support in model.supports for part in support.u)
     return bool(model.couples or varying)

@@ -18,6 +18,7 @@ from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import LoadChange
 from signorini.derivative.functionals import value, weights
 from signorini.derivative.moduli import ModulusChange
+from signorini.derivative.node_gradient import node_gradient
 from signorini.derivative.one_sided import beyond
 from signorini.derivative.parameters import change_of, names_of, shape_change
 from signorini.derivative.points import TapePoint, tape_points
@@ -243,6 +244,14 @@ class Derivative:
             words = f"has shape {moved.shape}; expected {model.mesh.points.shape}, a motion of some node"
             raise InputError(words, where=("motion",))
         return self._along(shape_change(self._history.prepared, moved))
+
+    @cached_property
+    def nodes(self) -> Array:
+        """(nodes, d) By the place of every node, per length; `shape` of any motion is the sum of its products with it.
+
+        Radii of nodes on the axis stay.
+        """
+        return node_gradient(self._history.view, self._adjoint, self.output)
 
     def _all(self, kind: str) -> ByName:
         return ByName(names_of(self._history.prepared, kind), lambda name: self._by(kind, name))

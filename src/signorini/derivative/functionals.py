@@ -11,6 +11,7 @@ from signorini.derivative.view import HistoryView
 from signorini.errors import InputError, one_of
 from signorini.fem.probe import StressProbe
 from signorini.fem.stress import DeformedBodies
+from signorini.interface.interface import Interface
 from signorini.model.outputs import (
     COMPONENTS,
     AtNode,
@@ -58,28 +59,39 @@ def displacement_weights(output: Displacement | Stress, view: HistoryView) -> Ar
         found[d * output.node : d * output.node + d] = _along(output.along, d)
         return found
     space = view.space
-    around = np.unique(np.concatenate([cells[(cells == output.node).any(axis=1)].ravel() for cells in _cells(view)]))
+    around = nodes_around(output.node, view)
     still = np.zeros(space.number_of_dofs)
-    none = _stress(output, view, still, i)
+    none = stress_at(output, view, still, i)
     for dof in (d * around[:, None] + np.arange(d)).ravel():
         moved = still.copy()
         moved[dof] = 1.0
-        found[dof] = _stress(output, view, moved, i) - none
+        found[dof] = stress_at(output, view, moved, i) - none
     return found
 
 
-def _cells(view: HistoryView) -> list[IntArray]:
-    return [block.cells for block in view.space.blocks]
+def nodes_around(node: int, view: HistoryView) -> IntArray:
+    """Nodes of the cells of a node, sorted."""
+    cells = (block.cells for block in view.space.blocks)
+    return np.unique(np.concatenate([own[(own == node).any(axis=1)].ravel() for own in cells]))
 
 
 def _of_bodies(output: Displacement | Stress, view: HistoryView, u: Array, i: int) -> float:
     """An output of bodies under displacements (dofs,) at a point."""
     if isinstance(output, Stress):
-        return _stress(output, view, u, i)
+        return stress_at(output, view, u, i)
     return float(view.space.at_nodes(u)[_node(output.node, view)] @ _along(output.along, view.model.dimension))
 
 
-def _stress(output: Stress, view: HistoryView, u: Array, i: int) -> float:
+def stress_at(output: Stress, view: HistoryView, u: Array, i: int) -> float:
+    """A stress under displacements (dofs,) at the temperatures of a point.
+
+    Parameters
+    ----------
+    output : the stress
+    view : the bodies
+    u : (dofs,)
+    i : number of the point
+    """
     names = [body.name for body in view.model.bodies]
     if output.body not in names:
         raise InputError(one_of(output.body, names, "body"))
@@ -161,15 +173,18 @@ def _levers(output: Moment, view: HistoryView) -> Array:
     d, n = interface.directions, len(interface)
     about, axis = _along(output.about, d), 0 if d == 2 else output.axis
     found = interface.moments.reshape(d, n, -1)[:, :, axis].copy()
-    arms = np.array([[about[1], -about[0]]]) if d == 2 else np.cross(about, np.eye(3))
-    arm = arms[axis] if d == 3 else arms[0]
     # the moment about x_0 is that about the origin less x_0 x f, which is linear in f as well
-    whole = found + _directions(view, arm, "all")
+    whole = found + _directions(view, lever_arm(about, axis), "all")
     if output.of == "pressure":
         whole[1:] = 0.0
     if output.of == "friction":
         whole[0] = 0.0
     return np.asarray(whole)
+
+
+def lever_arm(about: Array, axis: int) -> Array:
+    """(d,) What forces are projected on for what a point (d,) that they turn about takes from their moment."""
+    return np.array([about[1], -about[0]]) if len(about) == 2 else np.cross(about, np.eye(3))[axis]
 
 
 def _half_width(output: HalfWidth, view: HistoryView, r: Array, none: Array) -> tuple[float, Array, Array]:
@@ -184,8 +199,8 @@ def _half_width(output: HalfWidth, view: HistoryView, r: Array, none: Array) -> 
     if view.model.axisymmetric:
         s, factor = places[:, 0], _HERTZ_POINT
     else:
-        tangent = interface.tangents[own, 0].mean(axis=0)
-        s, factor = places @ (tangent / np.linalg.norm(tangent)), _HERTZ_LINE
+        tangent, factor = mean_tangent(interface, own), _HERTZ_LINE
+        s = places @ tangent
         s = s - (float(force @ s) / total if not output.about else _along(output.about, 2) @ tangent)
     second = float(force @ s**2) / total
     width = float(np.sqrt(factor * second))
@@ -193,6 +208,12 @@ def _half_width(output: HalfWidth, view: HistoryView, r: Array, none: Array) -> 
         raise InputError(f"contact '{output.contact}' touches in one place; its half-width has no derivative")
     of_r[0, own] = 0.5 * factor * (s**2 - second) / (total * width)
     return width, none, of_r
+
+
+def mean_tangent(interface: Interface, own: BoolArray) -> Array:
+    """(d,) Unit vector along the mean tangent of some pairs (n,)."""
+    tangent = interface.tangents[own, 0].mean(axis=0)
+    return np.asarray(tangent / np.linalg.norm(tangent))
 
 
 def _dissipation(output: Dissipation, view: HistoryView, last: int) -> tuple[float, dict[int, Weights]]:

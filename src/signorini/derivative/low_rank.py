@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Displacements of a history in as few columns as the states at all its points are combinations of.
+"""Displacements of a history, and adjoint ones, in as few columns as all its points are combinations of.
 
 Displacements are linear in what the condensed interface knows of a point: as many states are substituted back into the
-bodies as are linearly independent, as far as pairs have closed, and all of them at once.
+bodies as are linearly independent, as far as pairs have closed, and all of them at once. Of a sum over all points of
+products of adjoint and actual displacements only combinations matter that have a part in it.
 """
 
 from __future__ import annotations
@@ -16,12 +17,40 @@ import scipy.linalg
 from signorini.arrays import Array
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
+from signorini.derivative.recursion import Adjoint, PointTerm
 from signorini.engine.path_states import offsets
 from signorini.linalg.protocol import Reduced
 
+_RANK = 1e-13  # of the largest combination: one that does not matter
 _ALIKE = 1e-11  # of the largest state: what is left of a state that is a combination of others
 
 _COLUMNS = 32  # displacements that are found at once: their arrays stay in memory that is there already
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Combination:
+    """Combinations of the points of one system; every array has them last, (..., k).
+
+    Attributes
+    ----------
+    system : the interface
+    adjoint, displacement : (dofs, k) w and u
+    motion, forces : (d, a, k) J, and the forces of the active pairs
+    one : (k,) sums of what is 1 at every point
+    factors : by load, (k,)
+    """
+
+    system: InterfaceSystem
+    adjoint: Array
+    displacement: Array
+    motion: Array
+    forces: Array
+    one: Array
+    factors: dict[str, Array]
+
+    def factor(self, name: str) -> Array:
+        """(k,) Of a load."""
+        return self.factors.get(name, np.zeros(len(self.one)))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -82,6 +111,95 @@ def _states(points: Sequence[TapePoint]) -> tuple[list[str], list[Array]]:
         np.array([[1.0, *(point.load.factors.get(name, 0.0) for name in names)] for point in points]),
         np.array([offsets(system.prepared, point.load)[:, system.active] for point in points]),
     ]
+
+
+def combinations(points: Sequence[TapePoint], adjoint: Adjoint) -> Iterator[Combination]:
+    """Combinations of the points that matter to an output, some at once.
+
+    Parameters
+    ----------
+    points : of the history
+    adjoint : of the output
+    """
+    numbers = sorted({*adjoint.terms, *adjoint.pulled})
+    for bodies in dict.fromkeys(points[i].system.bodies for i in numbers):
+        own = [i for i in numbers if points[i].system.bodies == bodies]
+        yield from _of_bodies(points, own, adjoint)
+
+
+def _of_bodies(points: Sequence[TapePoint], own: list[int], adjoint: Adjoint) -> Iterator[Combination]:
+    """Combinations of points of the same bodies, by singular values of the sum of their products."""
+    system = points[own[0]].system
+    names, right = _states([points[i] for i in own])
+    pulled = [i for i in own if i in adjoint.pulled]
+    none = PointTerm(motion=np.zeros((system.directions, system.pairs)), resultant=np.zeros(system.motions))
+    terms = [adjoint.terms.get(i, none) for i in own]
+    left = [
+        np.array([term.motion for term in terms]),
+        np.array([term.resultant for term in terms]),
+        np.array([[float(i == at) for at in pulled] for i in own]),
+    ]
+    first, second = _largest(left, right)
+    count = first[0].shape[-1]
+    for begin in range(0, count, _COLUMNS):
+        motion, resultant, pulls = (part[..., begin : begin + _COLUMNS] for part in first)
+        h, r, known, offset = (part[..., begin : begin + _COLUMNS] for part in second)
+        factors = dict(zip(names, known[1:], strict=True))
+        pulling = sum((np.outer(adjoint.pulled[i], row) for i, row in zip(pulled, pulls, strict=True)), np.zeros(()))
+        yield Combination(
+            system=system,
+            adjoint=_adjoint(system, motion, resultant, pulling),
+            displacement=_displacement(system, h, r, offset, factors),
+            motion=motion,
+            forces=r,
+            one=known[0],
+            factors=factors,
+        )
+
+
+def _largest(left: list[Array], right: list[Array]) -> tuple[list[Array], list[Array]]:
+    """Blocks of which the sum over the first axis of the products is that of fewer, which lie along the last axis.
+
+    Parameters
+    ----------
+    left, right : (points, ...) blocks of both factors
+    """
+    factors, sizes = [], []
+    for blocks in (left, right):
+        size = [float(np.abs(block).max(initial=0.0)) or 1.0 for block in blocks]
+        rows = [block.reshape(len(block), -1).T / scale for block, scale in zip(blocks, size, strict=True)]
+        factors.append(scipy.linalg.qr(np.concatenate(rows), mode="economic"))
+        sizes.append(size)
+    (Q, R), (Q_r, R_r) = factors
+    U, values, V = np.linalg.svd(R @ R_r.T)
+    rank = int((values > _RANK * values.max(initial=0.0)).sum())
+    whole = Q @ (U[:, :rank] * values[:rank]), Q_r @ V[:rank].T
+    return _blocks(whole[0], left, sizes[0]), _blocks(whole[1], right, sizes[1])
+
+
+def _blocks(rows: Array, like: list[Array], sizes: list[float]) -> list[Array]:
+    """Rows (rows, k) as the blocks that they were, (..., k) each."""
+    ends = np.cumsum([block[0].size for block in like])[:-1]
+    parts = np.split(rows, ends)
+    return [
+        (size * part).reshape(*block.shape[1:], rows.shape[1])
+        for part, block, size in zip(parts, like, sizes, strict=True)
+    ]
+
+
+def _adjoint(system: InterfaceSystem, motion: Array, resultant: Array, pulling: Array) -> Array:
+    """(dofs, k) Displacements ``K^-1 (B^T J + pull) + Z j``.
+
+    Parameters
+    ----------
+    system : the interface
+    motion, resultant : (d, a, k) J and (rigid motions, k) j
+    pulling : (z, k) ``K^-1`` of what pulls on free displacements, or a zero
+    """
+    T, condensed, k = system.prepared.constraints.transform, system.condensed, motion.shape[-1]
+    still = condensed.reduce(np.zeros((T.shape[1], k)))
+    moved = condensed.response.displacement(still, motion.reshape(-1, k), lambda _: resultant)
+    return np.asarray(T @ (moved + pulling))
 
 
 def _displacement(system: InterfaceSystem, h: Array, r: Array, offset: Array, factors: dict[str, Array]) -> Array:

@@ -13,6 +13,7 @@ from signorini.arrays import Array
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.recursion import BoundTerm
 from signorini.interface.interface import Interface
+from signorini.law.bound import FrictionBound
 from signorini.model.model import Model
 
 
@@ -79,19 +80,27 @@ class PairChange:
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What areas change of the friction of the active pairs; None where that does not ask for them."""
-        law, active = system.law, system.condensed.active
-        if law.pieces.branches == 1 and not law.pieces.starts.any():
+        if not asks_for_areas(system):
             return None
-        term = BoundTerm.of(law.pieces)
-        high, low = (
-            replace(law, **side.friction.among(active).posed(side.area[active] / system.root)).pieces
-            for side in (self.high, self.low)
-        )
+        term = BoundTerm.of(system.law.pieces)
+        high, low = (bound_at(system, side) for side in (self.high, self.low))
         inside = np.isfinite(high.kinks[:-1]) & np.isfinite(low.kinks[:-1])
         for name in ("slopes", "starts"):
             setattr(term, name, (getattr(high, name) - getattr(low, name)) / (2.0 * self.step))
         term.kinks[inside] = (high.kinks[:-1][inside] - low.kinks[:-1][inside]) / (2.0 * self.step)
         return term
+
+
+def asks_for_areas(system: InterfaceSystem) -> bool:
+    """Whether the friction of the pairs depends on their areas: not where it is a coefficient alone."""
+    return system.law.pieces.branches > 1 or bool(system.law.pieces.starts.any())
+
+
+def bound_at(system: InterfaceSystem, interface: Interface) -> FrictionBound:
+    """The bound of the active pairs, scaled, on pairs of other areas."""
+    active = system.condensed.active
+    posed = interface.friction.among(active).posed(interface.area[active] / system.root)
+    return replace(system.law, **posed).pieces
 
 
 def between_bodies(model: Model) -> bool:

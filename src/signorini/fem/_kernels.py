@@ -173,7 +173,7 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
         C[:] = 0.0
         sign = 0.0
         for q in range(len(weights)):
-            w, det = weights[q], _gradients(x, gradients[q], J, I, g, e)
+            w, det = weights[q], gradients_at(x, gradients[q], J, I, g, e)
             if det == 0.0 or det * sign < 0.0:
                 return t, 1
             sign = det
@@ -211,11 +211,14 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
 
 
 @part()
-def _gradients(x: Array, reference: Array, J: Array, I: Array, g: Array, e: int) -> float:  # noqa: E741
+def gradients_at(x: Array, reference: Array, J: Array, I: Array, g: Array, e: int) -> float:  # noqa: E741
     """Write the gradients at one point, e components a node; give the Jacobian, 0 where it is only round-off.
 
-    J is scratch for the Jacobian matrix, I for its inverse; in the plane the last row and column of J are those of a
-    unit matrix.
+    Parameters
+    ----------
+    x, reference : (k, d) nodes of the cell, and reference gradients of its shape functions
+    J, I : (3, 3) scratch for the Jacobian matrix and its inverse; in the plane the rest of J is a unit matrix
+    g, e : (k e,) overwritten; components a node
     """
     nodes, d = x.shape
     size = 1.0

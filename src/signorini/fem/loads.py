@@ -24,12 +24,19 @@ from signorini.model.varying import Varying
 
 def nodal_loads(space: Space, model: Model) -> dict[str, Array]:
     """Consistent nodal forces of every load, and of loaded obstacles, at factor 1, by name, each (dofs,)."""
-    nodal = {load.label: _forces(space, model, load, ("load", i)) for i, load in enumerate(model.loads)}
+    nodal = {load.label: load_forces(space, model, load, ("load", i)) for i, load in enumerate(model.loads)}
     return nodal | obstacle_loads(space, model) if model.obstacles else nodal
 
 
-def _forces(space: Space, model: Model, load: Load, where: Where) -> Array:
-    """(dofs,)"""
+def load_forces(space: Space, model: Model, load: Load, where: Where) -> Array:
+    """(dofs,) Consistent nodal forces of a load at factor 1.
+
+    Parameters
+    ----------
+    space, model : of the bodies
+    load : one of the model, or one like it
+    where : what errors call it
+    """
     forces = np.zeros(space.number_of_dofs)
     if load.force is not None and any(load.on == body.name for body in model.rigid_bodies):
         dofs = place_dofs(space, model, load.on, (*where, "on"))[0]

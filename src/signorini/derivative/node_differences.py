@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Derivatives by the place of every node of numbers that each depend on few nodes: many nodes are moved at once.
+
+Nodes of one colour are moved together: no number lies near two of them, so that its change is that of the one it lies
+near (Curtis, Powell, Reid).
+
+References
+----------
+Curtis, Powell, Reid (1974), On the estimation of sparse Jacobian matrices, IMA Journal of Applied Mathematics 13:117.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, IntArray, extent
+from signorini.fem.space import Space
+
+_STEP = 1e-6  # of the size of the model: how far nodes move
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class NodeDifferences:
+    """Differences by places of nodes.
+
+    Attributes
+    ----------
+    space : the mesh
+    near : (numbers, nodes) which nodes each number depends on
+    free : (nodes, d) coordinates that may change: not radii of nodes on the axis
+    """
+
+    space: Space
+    near: sp.csr_array
+    free: BoolArray
+
+    def gradient(self, numbers: Callable[[Space], Array]) -> Array:
+        """(nodes, d) Of the sum of numbers, which a function gives for nodes at other places."""
+        found, colours = np.zeros(self.free.shape), colours_of(self.near)
+        for colour in range(int(colours.max(initial=-1)) + 1):
+            for axis in range(self.free.shape[1]):
+                own = np.flatnonzero((colours == colour) & self.free[:, axis])
+                if len(own):
+                    self._add(found[:, axis], own, axis, numbers)
+        return found
+
+    def _add(self, found: Array, nodes: IntArray, axis: int, numbers: Callable[[Space], Array]) -> None:
+        """Add what a motion of nodes of one colour along an axis changes, node by node."""
+        step, motion = _STEP * float(extent(self.space.mesh.points).max()), np.zeros(self.free.shape)
+        motion[nodes, axis] = step
+        points, before = self.space.mesh.points, self.space.displacement
+        high, low = (numbers(self.space.at(points + way * motion, before)) for way in (1.0, -1.0))
+        near, owner = sp.coo_array(self.near[:, nodes]), np.full(len(high), -1)
+        owner[near.row] = near.col
+        own = owner >= 0
+        np.add.at(found, nodes[owner[own]], (high - low)[own] / (2.0 * step))
+
+
+def colours_of(near: sp.csr_array) -> IntArray:
+    """(nodes,) Colours from 0 so that nodes that one number lies near have different ones; -1 where none does.
+
+    Examples
+    --------
+    >>> colours_of(sp.csr_array(np.array([[1, 1, 0, 0], [0, 1, 1, 0]]))).tolist()
+    [0, 1, 0, -1]
+    """
+    seen = sp.csr_array(near, dtype=np.int64)
+    together = sp.csr_array(seen.T @ seen)
+    found = np.full(near.shape[1], -1)
+    for node in np.flatnonzero(np.diff(together.indptr)):
+        taken = found[together.indices[together.indptr[node] : together.indptr[node + 1]]]
+        free = np.ones(len(taken) + 1, dtype=np.bool_)
+        free[taken[(taken >= 0) & (taken < len(free))]] = False
+        found[node] = int(np.argmax(free))
+    return found
+
+
+def within(rows: sp.csr_array, facets: list[IntArray], rings: int) -> sp.csr_array:
+    """(numbers, nodes) Nodes that rows name, and those as many facets from there.
+
+    Parameters
+    ----------
+    rows : (numbers, nodes) nonzero where a number names a node
+    facets : arrays (m, k) of nodes of facets or cells
+    rings : how many facets farther
+    """
+    count = rows.shape[1]
+    found = sp.csr_array((np.ones(rows.nnz, np.int64), rows.indices, rows.indptr), shape=rows.shape)
+    member = [
+        sp.csr_array(
+            (np.ones(part.size, np.int64), part.ravel(), np.arange(0, part.size + 1, part.shape[1])), (len(part), count)
+        )
+        for part in facets
+    ]
+    for _ in range(rings):
+        for part in member:
+            found = sp.csr_array(found + (found @ part.T) @ part)
+            found.data[:] = 1
+    return found

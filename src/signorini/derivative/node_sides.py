@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the places of nodes change of how pairs see the bodies, in the sum over a history: normals, gaps, areas.
+
+    sum_k  w_k . B'^T r_k + J_k . (B' u_k + C' r_k + g'),    the friction by areas, and what an output has of them
+
+A pair depends on the nodes near it alone, so that many nodes are moved at once, see `node_differences`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, IntArray, selection
+from signorini.derivative.body_side import pairs_at
+from signorini.derivative.explicit import ShapeWeights
+from signorini.derivative.low_rank import Combination
+from signorini.derivative.node_differences import NodeDifferences, within
+from signorini.derivative.pair_change import asks_for_areas, bound_at
+from signorini.derivative.recursion import Adjoint
+from signorini.derivative.view import HistoryView
+from signorini.errors import InputError
+from signorini.fem.boundary import Boundary, boundary
+from signorini.fem.space import Space
+from signorini.fem.supports import Constraints, make_constraints
+from signorini.interface.interface import Interface
+from signorini.model.outputs import Output
+
+_RINGS = 3  # of facets around a pair that its normal, area and gap may depend on, through neighbours of neighbours
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SideSums:
+    """Sums over a history for every pair.
+
+    Attributes
+    ----------
+    view, adjoint, output : the history, and the output's way back through it
+    """
+
+    view: HistoryView
+    adjoint: Adjoint
+    output: Output
+    _columns: list[tuple[Array, Array, Array, Array]] = field(default_factory=list, init=False)
+    _gap: list[Array] = field(default_factory=list, init=False)
+
+    def add(self, columns: Combination) -> None:
+        """Add combinations of points: J, r of all pairs, w and u of the dofs that pairs see, and sums of gaps."""
+        system, n = columns.system, len(self.view.interface)
+        every = selection(np.flatnonzero(np.tile(system.condensed.active, system.directions)), system.directions * n).T
+        J, r = (every @ part.reshape(every.shape[1], -1) for part in (columns.motion, columns.forces))
+        self._columns.append((J, r, columns.adjoint[self._dofs], columns.displacement[self._dofs]))
+        self._gap.append(J[:n] @ columns.one)
+
+    def gradient(self, free: BoolArray) -> Array:
+        """(nodes, d) By the places of nodes, of which some coordinates are free (nodes, d)."""
+        interface, least = self.view.interface, self._least
+        facets = [block.facets for side in self._boundaries for block in side.blocks]
+        own = selection(interface.node, len(free))
+        rows = sp.coo_array(interface.B)
+        on_nodes = rows.col < self.view.space.dofs_of_nodes
+        pair, node = rows.row[on_nodes] % len(interface), rows.col[on_nodes] // self.view.space.components
+        seen = sp.csr_array((np.ones(len(pair)), (pair, node)), shape=own.shape)
+        near = within(sp.csr_array(own + seen), facets, _RINGS)
+        nearest = within(near[least], facets, _RINGS)
+        of_pairs = (
+            selection(interface.contact, len(least)) if self._lifted else sp.csr_array((len(interface), len(least)))
+        )
+        every = sp.csr_array(sp.vstack([near + of_pairs @ nearest, nearest]))
+        J, r, w, u = (np.concatenate(part, axis=1) for part in zip(*self._columns, strict=True))
+        gap = np.sum(self._gap, axis=0)
+
+        def sums(at: Space) -> Array:
+            found = self._pairs(at)
+            B, n, common = self._narrow(found), len(found), np.zeros(len(least))
+            once = (J * (B @ u) + r * (B @ w)).sum(axis=1) + found.compliance.ravel() * (J * r).sum(axis=1)
+            of_pairs = once.reshape(-1, n).sum(axis=0) + self.shape.of_pairs(found) + self._friction(found)
+            gaps = found.gap
+            if self._lifted:  # all gaps of a contact may be larger by what its least one lacks
+                common = np.bincount(found.contact, gap, minlength=len(least)) * found.gap[least]
+                gaps = found.gap - found.gap[least][found.contact]
+            return np.concatenate([of_pairs + gap * gaps, common])
+
+        return NodeDifferences(space=self.view.space, near=every, free=free).gradient(sums)
+
+    @cached_property
+    def _least(self) -> IntArray:
+        """(contacts,) The pair of each contact with the least gap; 0 where it has none."""
+        interface, found = self.view.interface, np.zeros(len(self.view.model.contacts), dtype=np.int64)
+        for contact in np.unique(interface.contact):
+            own = np.flatnonzero(interface.contact == contact)
+            found[contact] = own[int(np.argmin(interface.gap[own]))]
+        return found
+
+    @property
+    def _lifted(self) -> bool:
+        """Whether gaps are means over facets, which may all be larger by one length, see `interface.gaps.resolved`."""
+        return any(side.coupling == "mortar" for side in self.view.interface.sides) or self._quadratic
+
+    @property
+    def _quadratic(self) -> bool:
+        return any(side.quadratic for side in self._boundaries)
+
+    @cached_property
+    def _boundaries(self) -> list[Boundary]:
+        """All meshed sides."""
+        model = self.view.model
+        sides = {contact.nonmortar for contact in model.contacts} | {contact.mortar for contact in model.contacts}
+        return [boundary(self.view.space, name, ("contact",)) for name in model.mesh.boundaries if name in sides]
+
+    def _pairs(self, at: Space) -> Interface:
+        """The pairs where nodes are elsewhere.
+
+        Raises
+        ------
+        InputError
+            Where others make pairs.
+        """
+        found = pairs_at(at, self.view.model, self._constraints)
+        if not np.array_equal(found.node, self.view.interface.node):
+            words = "nodes that move a little are paired otherwise; derivatives by nodes do not know that"
+            raise InputError(words, where=("nodes",))
+        return found
+
+    @cached_property
+    def shape(self) -> ShapeWeights:
+        """What the output itself has of the shape of the sides."""
+        return ShapeWeights.of(self.output, self.view)
+
+    @cached_property
+    def _constraints(self) -> Constraints:
+        """Planes of symmetry."""
+        return make_constraints(self.view.space, self.view.model)
+
+    @cached_property
+    def _dofs(self) -> IntArray:
+        """Dofs that pairs may see: those of the nodes of all sides, and of obstacles."""
+        space = self.view.space
+        nodes = np.unique(np.concatenate([side.nodes for side in self._boundaries]))
+        return np.concatenate([space.dofs(nodes).ravel(), np.arange(space.dofs_of_nodes, space.number_of_dofs)])
+
+    def _narrow(self, interface: Interface) -> sp.csr_array:
+        """B of the dofs that pairs may see alone."""
+        B = interface.B
+        place = np.zeros(B.shape[1], dtype=np.int64)
+        place[self._dofs] = np.arange(len(self._dofs))
+        return sp.csr_array((B.data, place[B.indices], B.indptr), shape=(B.shape[0], len(self._dofs)))
+
+    def _friction(self, interface: Interface) -> Array:
+        """(n,) What areas have in the friction, where that asks for them."""
+        found = np.zeros(len(interface))
+        for system, term in self.adjoint.bounds.items():
+            if asks_for_areas(system):
+                bound = bound_at(system, interface)
+                kinks = np.where(np.isfinite(bound.kinks[:-1]), bound.kinks[:-1], 0.0)
+                parts = term.slopes * bound.slopes + term.starts * bound.starts + term.kinks * kinks
+                found[system.active] += parts.sum(axis=0)
+        return found

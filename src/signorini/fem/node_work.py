@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the virtual work of stresses changes with the place of every node of the mesh, in one pass over the cells.
+
+With ``W = sum_k int eps(w_k) : C : eps(u_k)`` a node b that moves by e_m changes gradients by ``-d_m N_a d_i N_b`` and
+volumes by ``d_m N_b``, so that
+
+    dW/dx_bm = sum_q dV [ (sum_k sig(u_k) : eps(w_k)) d_m N_b - sum_i Q_mi d_i N_b ],
+    Q_mi = sum_k (d_m w_k . sig(u_k)_i + d_m u_k . sig(w_k)_i),
+
+exactly as it is integrated: Eshelby's energy-momentum tensor. Bodies of revolution add what radii do. Cells with
+internal modes or a mean dilatation are differentiated by differences, all cells at once, a node of each at a time.
+
+References
+----------
+Eshelby (1975), The elastic energy-momentum tensor, Journal of Elasticity 5:321.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numba import njit
+
+from signorini.arrays import Array, IntArray
+from signorini.fem._kernels import gradients_at
+from signorini.fem.elasticity import elasticities, law_tensor
+from signorini.fem.kinematics import Group, straining_groups
+from signorini.fem.measure import measure
+from signorini.fem.space import Space
+from signorini.fem.stiffness import stiffness
+from signorini.model.model import Model
+
+_STEP = 1e-5  # of the size of a cell: differences of its stiffness are right to 1e-10 then
+
+
+def add_node_work(found: Array, space: Space, model: Model, w: Array, u: Array) -> None:
+    """Add ``d(sum_k w_k . K u_k) / dx`` to (nodes, d), where K depends on the places x of the nodes.
+
+    Parameters
+    ----------
+    found : added to, work per length
+    space, model : the mesh and what is on it
+    w, u : (dofs, k) displacements, k of either
+    """
+    d, c = space.dimension, space.components
+    law = law_tensor(elasticities(model), hoop=model.axisymmetric)
+    terms = np.argwhere((law != 0.0).any(axis=0))
+    entries, values = np.column_stack([terms[:, 0], terms[:, 2], terms[:, 1], terms[:, 3]]), law[:, *terms.T]
+    first, second = np.ascontiguousarray(w), np.ascontiguousarray(u)
+    for group in straining_groups(space, model):
+        if group.formulation != "standard":
+            np.add.at(found, group.cells, _by_differences(space, model, group, w, u))
+            continue
+        at = np.einsum("qk,mki->mqi", group.block.values, space.mesh.points[group.cells])
+        weights = measure(model, at, group.numbers) * group.block.weights
+        of_cells = (np.ascontiguousarray(group.cells), group.body, np.ascontiguousarray(weights))
+        block = (group.block.values, np.ascontiguousarray(group.block.gradients))
+        _add(found, space.mesh.points, of_cells, block, (entries, np.ascontiguousarray(values)), first, second, c, d)
+
+
+def _by_differences(space: Space, model: Model, group: Group, w: Array, u: Array) -> Array:
+    """(m, k, d) Of the nodes of the cells of a group, each cell on nodes of its own."""
+    block, d = group.block, space.dimension
+    alone = replace(block, cells=np.arange(block.cells.size).reshape(block.cells.shape))
+    apart = replace(group, block=alone)
+    places = space.mesh.points[block.cells]
+    size = np.ptp(places, axis=1).max(axis=1)
+    rows = space.dofs(group.cells).reshape(len(group.index), -1)
+    products = np.einsum("mik,mjk->mij", w[rows], u[rows])
+    found = np.empty((*group.cells.shape, d))
+    for a, i in np.ndindex(found.shape[1:]):
+        step = np.zeros_like(places)
+        step[:, a, i] = _STEP * size
+        low, high = (
+            stiffness(space.at((places + way * step).reshape(-1, d), np.zeros(0)), model, [apart]).data
+            for way in (-1.0, 1.0)
+        )
+        change = ((high - low).reshape(products.shape) * products).sum(axis=(1, 2))
+        found[:, a, i] = change / (2.0 * _STEP * size[group.index])
+    return found
+
+
+@njit(cache=True, fastmath={"reassoc", "contract"})
+def _products(cell: IntArray, c: int, w: Array, u: Array, M: Array) -> None:
+    """Overwrite M, (k c, k c), by the products of all displacements of the nodes of a cell, summed over the columns."""
+    columns = w.shape[1]
+    for a in range(len(cell)):
+        for r in range(c):
+            row = cell[a] * c + r
+            for b in range(len(cell)):
+                for s in range(c):
+                    other = cell[b] * c + s
+                    total = 0.0
+                    for k in range(columns):
+                        total += w[row, k] * u[other, k]
+                    M[a * c + r, b * c + s] = total
+
+
+@njit(cache=True)
+def _add(
+    found: Array,
+    points: Array,
+    of_cells: tuple[IntArray, IntArray, Array],
+    block: tuple[Array, Array],
+    law: tuple[IntArray, Array],
+    w: Array,
+    u: Array,
+    c: int,
+    d: int,
+) -> None:
+    """Add what cells of the standard formulation have, see the module.
+
+    Parameters
+    ----------
+    found : (nodes, d) added to
+    points : (nodes, d)
+    of_cells : (m, k) nodes, (m,) materials and (m, q) weights times thickness or circumference
+    block : (q, k) shape functions and (q, k, d) their reference gradients
+    law : (t, 4) numbers r, s, i, j and (n, t) values of ``C_risj``
+    w, u : (dofs, k)
+    c, d : components of a displacement and of a place
+    """
+    cells, material, weights = of_cells
+    values, gradients = block
+    entries, moduli = law
+    nodes, hoop = cells.shape[1], moduli.shape[1] > 0 and entries[:, 2].max() == d
+    e = d + 1 if hoop else d
+    M, g, x = np.empty((nodes * c, nodes * c)), np.empty(nodes * e), np.empty((nodes, d))
+    J, I = np.eye(3), np.empty((3, 3))  # noqa: E741
+    T, H, Q = np.empty((c, e, nodes * c)), np.empty((c, e, c, e)), np.empty((d, e))
+    for t in range(len(cells)):
+        _products(cells[t], c, w, u, M)
+        for a in range(nodes):
+            for m in range(d):
+                x[a, m] = points[cells[t, a], m]
+        for q in range(len(gradients)):
+            volume = abs(gradients_at(x, gradients[q], J, I, g, e)) * weights[t, q]
+            if hoop:
+                radius = 0.0
+                for a in range(nodes):
+                    radius += values[q, a] * x[a, 0]
+                for a in range(nodes):
+                    g[a * e + d] = values[q, a] / radius
+            _slopes(M, g, nodes, T, H)
+            work = 0.0
+            Q[:] = 0.0
+            for n in range(len(entries)):
+                r, s, i, j = entries[n]
+                modulus = moduli[material[t], n]
+                work += modulus * H[r, i, s, j]
+                for m in range(d):
+                    if i < d:
+                        Q[m, i] += modulus * H[r, m, s, j]
+                    if j < d:
+                        Q[m, j] += modulus * H[r, i, s, m]
+                Q[0, d:] += modulus * H[r, i, s, j] * ((i == d) + (j == d))
+            for b in range(nodes):
+                for m in range(d):
+                    part = work * g[b * e + m]
+                    for i in range(d):
+                        part -= Q[m, i] * g[b * e + i]
+                    if hoop and m == 0:
+                        part += (work - Q[0, d]) * g[b * e + d]
+                    found[cells[t, b], m] += volume * part
+
+
+@njit(cache=True)
+def _slopes(M: Array, g: Array, nodes: int, T: Array, H: Array) -> None:
+    """Overwrite H, (c, e, c, e), by the products of all slopes of both displacements at a point; T is scratch."""
+    c, e = H.shape[:2]
+    T[:] = 0.0
+    H[:] = 0.0
+    for a in range(nodes):
+        for r in range(c):
+            for i in range(e):
+                for column in range(nodes * c):
+                    T[r, i, column] += g[a * e + i] * M[a * c + r, column]
+    for r in range(c):
+        for i in range(e):
+            for b in range(nodes):
+                for s in range(c):
+                    for j in range(e):
+                        H[r, i, s, j] += g[b * e + j] * T[r, i, b * c + s]
