@@ -20,9 +20,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, IntArray
+from signorini.compilation import kernel, part
 from signorini.fem._kernels import gradients_at
 from signorini.fem.elasticity import elasticities, law_tensor
 from signorini.fem.kinematics import Group, straining_groups
@@ -81,7 +81,7 @@ def _by_differences(space: Space, model: Model, group: Group, w: Array, u: Array
     return found
 
 
-@njit(cache=True, fastmath={"reassoc", "contract"})
+@part(fastmath={"reassoc", "contract"})
 def _products(cell: IntArray, c: int, w: Array, u: Array, M: Array) -> None:
     """Overwrite M, (k c, k c), by the products of all displacements of the nodes of a cell, summed over the columns."""
     columns = w.shape[1]
@@ -97,7 +97,7 @@ def _products(cell: IntArray, c: int, w: Array, u: Array, M: Array) -> None:
                     M[a * c + r, b * c + s] = total
 
 
-@njit(cache=True)
+@kernel()
 def _add(
     found: Array,
     points: Array,
@@ -165,7 +165,7 @@ def _add(
                     found[cells[t, b], m] += volume * part
 
 
-@njit(cache=True)
+@part()
 def _slopes(M: Array, g: Array, nodes: int, T: Array, H: Array) -> None:
     """Overwrite H, (c, e, c, e), by the products of all slopes of both displacements at a point; T is scratch."""
     c, e = H.shape[:2]
