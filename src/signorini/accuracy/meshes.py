@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from signorini.accuracy.node_values import CarriedValues, has_node_values
 from signorini.arrays import Array, IntArray
 from signorini.meshing.simplices import Curve, Simplices
 from signorini.model.accuracy import Accuracy
-from signorini.model.mesh import CORNERS, NODES_PER_CELL
+from signorini.model.mesh import CORNERS, NODES_PER_CELL, Mesh
 from signorini.model.model import Model
 
 SHARE = 0.7
@@ -43,7 +44,7 @@ class RefinedMeshes:
 
     def __init__(self, model: Model, request: Accuracy) -> None:
         mesh, d = model.mesh, model.dimension
-        self._model, self._curves = model, curves_of(mesh, request.shapes)
+        self._model, self._curves = model, _curves(mesh, request)
         cut = [family for family in mesh.cells if CORNERS[family] != d + 1]
         self._order = 1 if not cut and is_linear(model) else 2
         self.notes = tuple(f"'{name}' follows {curve}" for name, curve in self._curves.items())
@@ -104,6 +105,16 @@ def grown(simplices: Simplices, squares: Array, growth: float, curves: dict[str,
         parents = finer.parents if parents is None else np.vstack([parents, finer.parents[len(parents) :]])
         found, sizes = finer, smaller
     return found if parents is None else replace(found, parents=parents, origin=origin)
+
+
+def _curves(mesh: Mesh, request: Accuracy) -> dict[str, Curve]:
+    """Of boundaries: those of the geometry, where there is one, and those that are given or found."""
+    if request.geometry is None:
+        return curves_of(mesh, request.shapes)
+    from signorini.accuracy.gmsh_geometry import GmshGeometry  # not before a geometry is given
+
+    given = {name: shape for name, shape in curves_of(mesh, request.shapes).items() if name in request.shapes}
+    return given | GmshGeometry(Path(request.geometry)).curves(mesh, request.shapes)
 
 
 def marked(squares: Array) -> IntArray:

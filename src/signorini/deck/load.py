@@ -132,6 +132,8 @@ def _accuracy(data: Mapping[str, Any], reach: Reach, mesh: Mesh) -> Asked:
     if "shapes" in rest:
         shapes = table(rest["shapes"], (*where, "shapes"))
         rest["shapes"] = {name: _shape(value, (*where, "shapes", name), reach, mesh) for name, value in shapes.items()}
+    if "geometry" in rest:
+        rest["geometry"] = reach.file(text(rest["geometry"], (*where, "geometry")), (*where, "geometry"))
     try:
         return Accuracy(asked, **rest)
     except InputError as error:

@@ -73,7 +73,7 @@ def mesh_geometry(path: Path, mesh: Path) -> None:
             "pip install 'signorini[gmsh]', or a mesh (gmsh -2 or -3, saved as .msh)",
             where=("mesh", "file"),
         ) from None
-    _check_harmless(path)
+    check_harmless(path)
     gmsh.initialize(interruptible=False)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
@@ -86,8 +86,14 @@ def mesh_geometry(path: Path, mesh: Path) -> None:
         gmsh.finalize()
 
 
-def _check_harmless(path: Path) -> None:
-    """Refuse a geometry, which is a program, with any word that is not known to do no more than make a mesh."""
+def check_harmless(path: Path) -> None:
+    """Refuse a geometry, which is a program, with any word that is not known to do no more than make a mesh.
+
+    Raises
+    ------
+    InputError
+        With the word.
+    """
     text = path.read_text(encoding="utf-8", errors="replace").replace("\r", "\n")
     plain = _SILENT.sub(" ", text)
     if any(hidden in text for hidden in _HIDDEN) or "'" in plain or '"' in plain:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Literal, cast, get_args
 
 from signorini.checks import number, whole
@@ -33,6 +34,8 @@ class Accuracy:
     shapes : boundary to the shape that it stands for and that new nodes go onto: one of those of obstacles; "spline"
         through its nodes, in the plane; "straight", as the mesh has it. Of others a circle, a sphere or a cylinder is
         found where nodes lie on one
+    geometry : file that the mesh was made of, ``.geo``, ``.step`` or ``.brep``: new nodes of boundaries without a shape
+        go onto its curves and faces, by Gmsh
 
     Raises
     ------
@@ -54,6 +57,7 @@ class Accuracy:
     memory: float | None = None
     seconds: float | None = None
     shapes: Mapping[str, Obstacle | Literal["spline", "straight"]] = field(default_factory=dict)
+    geometry: str | Path | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "error", number(self.error, ("error",), above=0.0))
@@ -62,6 +66,8 @@ class Accuracy:
         for name in ("memory", "seconds"):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, number(getattr(self, name), (name,), above=0.0))
+        if self.geometry is not None:
+            object.__setattr__(self, "geometry", str(self.geometry))
         if not isinstance(self.shapes, Mapping):
             raise InputError(f"is {self.shapes!r}; expected boundaries and their shapes", where=("shapes",))
         for name, shape in self.shapes.items():
