@@ -26,6 +26,8 @@ NAVIGATION: dict[str, list[str]] = {
             "howto/arrays.md",
             "howto/report.md",
             "howto/paraview.md",
+            "howto/computing.md",
+            "howto/archive.md",
             "howto/sweeps.md",
         ),
         *("howto/restart.md", "howto/own_solver.md", "howto/batch.md", "howto/agents.md"),

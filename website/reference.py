@@ -14,6 +14,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import signorini as sg
+from signorini.history_moment import HistoryMoment
+from signorini.output.result_table import ResultTable
 from signorini.prepared import PreparedModel
 from signorini.solution.certificate import Certificate
 from signorini.solution.results import ContactResult, StepResult
@@ -35,7 +37,7 @@ PAGES = {
     "Solving": (
         *("check", "solve", "threads", "prepare", "PreparedModel", "read", "load", "natural_modes", "joint_damping"),
     ),
-    "Results": ("Solution", "StepResult", "ContactResult", "Certificate"),
+    "Results": ("Solution", "HistoryMoment", "ResultTable", "StepResult", "ContactResult", "Certificate"),
     "Errors": ("SignoriniError", "InputError", "SolveFailed", "Interrupted"),
     "Linear complementarity": ("lcp",),
     "Fatigue criteria": ("fatigue",),
@@ -43,7 +45,7 @@ PAGES = {
 }
 """Title of a page to what it holds; what `signorini` exports and no page names goes onto a last one."""
 
-RETURNED = (PreparedModel, Certificate, ContactResult, StepResult, sg.Solution)
+RETURNED = (PreparedModel, Certificate, ContactResult, HistoryMoment, ResultTable, StepResult, sg.Solution)
 """Classes that nobody makes but everybody gets."""
 
 INSIDE = {kind.__name__: kind for kind in RETURNED}

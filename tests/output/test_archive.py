@@ -2,6 +2,7 @@
 """Archives and decks that are written are read back exactly."""
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -148,3 +149,51 @@ def test_files_from_before_a_class_was_renamed_are_read() -> None:
 def test_unknown_endings_are_refused(solution: sg.Solution) -> None:
     with pytest.raises(InputError, match=r"expected a name that ends in \.vtu"):
         solution.write("x.txt")
+
+
+def test_names_that_the_page_promises_are_there_for_plain_h5py(tmp_path: Path) -> None:
+    """Arrays stand under their documented paths where they occur first, short ones in the text."""
+    import h5py
+
+    page = (Path(__file__).parents[2] / "docs" / "howto" / "archive.md").read_text()
+    model = sg.Model(
+        sg.rectangle(width=40.0, height=2.0, nx=40, ny=2),
+        bodies=[sg.Body("block", sg.Elastic(E=100.0, nu=0.3))],
+        supports=[sg.Support("left", u=(0, None))],
+        loads=[sg.Load("top", pressure=3.0), sg.Load("right", traction=(0.5, 0.0))],
+        contacts=[sg.Contact("bottom", sg.Plane(point=(0, 0), normal=(0, 1)), friction=0.2)],
+        steps=[sg.Step(at=[0.5])],
+    )
+    solution = sg.solve(model)
+    solution.write(tmp_path / "solution.h5")
+    promised = []
+    for row in re.findall(r"^\| (`.+?`) \|", page, re.MULTILINE):
+        first, *others = (name.strip("`") for name in row.split(", "))
+        whole = [first, *(f"{first.rsplit('/', 1)[0]}{name}" for name in others)]
+        promised += [name for name in whole if not name.startswith("end/")]
+    assert len(promised) == 22
+    fixed = {"FAMILY": "quad", "NAME": "block", "/K/": "/0/", "/I/": "/0/", "/C/": "/0/"}
+    with h5py.File(tmp_path / "solution.h5") as file:
+        assert file.attrs["format"] in page
+        assert file.userblock_size == 512
+        assert "structure" in file
+        structure = json.loads(file["structure"].asstr()[()].split("\n", 1)[1])
+        found = []
+        for name in promised[1:]:
+            for letter, value in fixed.items():
+                name = name.replace(letter, value)
+            part = structure
+            for key in name.split("/"):
+                inside = part["of"] if "$" in part else part
+                part = (
+                    dict(inside)[key]
+                    if part.get("$") in ("table", "proxy")
+                    else inside[int(key) if key.isdigit() else key]
+                )
+            assert part["path"] in file, name
+            found.append(part["path"] == name)
+        assert sum(found) >= 17  # the others are equal to one that stands elsewhere
+        pressure = file["steps/0/instants/0/contacts/0/pressure"][...]
+        assert pressure.tolist() == solution.at(load=0.5).contacts[0].pressure.tolist()
+        assert (file["steps/0/displacement"][...] == solution.last.displacement).all()
+        assert file["end/state/displacement"].shape == (2 * len(model.mesh.points),)

@@ -18,6 +18,7 @@ from signorini.fem.stress import (
     body_tensors,
     point_strains,
     point_stresses,
+    principal_stresses,
     space_of,
     von_mises,
 )
@@ -68,6 +69,11 @@ class BodyFields:
     def von_mises(self) -> Array:
         """Von Mises equivalent of the stress, (n,) force per area."""
         return von_mises(self.stress)
+
+    @cached_property
+    def principal_stress(self) -> Array:
+        """Principal values of the stress, the largest first, (n, 3) force per area."""
+        return principal_stresses(self.stress)
 
 
 class Fields:

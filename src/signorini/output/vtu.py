@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 from signorini.arrays import Array, IntArray, padded
-from signorini.fem.stress import principal_stresses
 from signorini.meshio_fixes import complete_meshio
 from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
@@ -53,7 +52,7 @@ def write_bodies(fields: BodyFields, path: Path, further: Mapping[str, Array] | 
             "displacement": padded(fields.displacement, 3),
             "stress": fields.stress,
             "von_mises": fields.von_mises,
-            "principal_stress": principal_stresses(fields.stress),
+            "principal_stress": fields.principal_stress,
             "node": fields.node,
             **({} if fields.plastic is None else _plastic(fields.plastic)),
             **{name: values for name, values in rare.items() if values is not None},

@@ -76,8 +76,8 @@ def stress_component(fields: BodyFields, kind: str, name: str | None) -> Scalar:
     pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))  # in the order of `BodyFields.stress`
     known: dict[str, Callable[[], Array]] = {
         "von_mises": lambda: fields.von_mises,
-        "principal": lambda: _principal(fields.stress)[:, -1],
-        "least_principal": lambda: _principal(fields.stress)[:, 0],
+        "principal": lambda: fields.principal_stress[:, 0],
+        "least_principal": lambda: fields.principal_stress[:, 2],
     }
     for number, (i, j) in enumerate(pairs):
         known[letters[i] + letters[j]] = lambda number=number: fields.stress[:, number]  # type: ignore[misc]
@@ -116,9 +116,3 @@ def _known(known: Mapping[str, Callable[[], Array]], name: str, of: str) -> Call
     if name not in known:
         raise InputError(one_of(name, known, f"component of the {of}"), where=("component",))
     return known[name]
-
-
-def _principal(stress: Array) -> Array:
-    """Principal values of stresses (n, 6), (n, 3) ascending."""
-    x, y, z, xy, yz, xz = stress.T
-    return np.linalg.eigvalsh(np.stack([x, xy, xz, xy, y, yz, xz, yz, z], axis=1).reshape(-1, 3, 3))
