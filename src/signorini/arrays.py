@@ -83,6 +83,18 @@ def selection(numbers: IntArray, count: int) -> sp.csr_array:
     return sp.csr_array((np.ones(k), (np.arange(k), numbers)), shape=(k, count))
 
 
+def scaled_rows(rows: sp.csr_array, by: Array) -> sp.csr_array:
+    """Every row of a matrix times a number of its own; on small ones several times faster than a diagonal matrix.
+
+    >>> import scipy.sparse as sp
+    >>> scaled_rows(sp.csr_array(np.ones((2, 2))), np.array([1.0, 3.0])).toarray().tolist()
+    [[1.0, 1.0], [3.0, 3.0]]
+    """
+    scaled = rows.copy()
+    scaled.data *= np.repeat(by, np.diff(rows.indptr))
+    return scaled
+
+
 def sharing(values: IntArray) -> tuple[IntArray, IntArray]:
     """All pairs of entries that have one value, an entry and itself too: places of the first and of the second.
 

@@ -82,8 +82,9 @@ def _in_groups() -> Iterator[int]:
         here = root / path.lstrip("/")
         for folder in (here, *here.parents):
             try:
+                limit = int((folder / most).read_text())  # "max" where there is none
                 files = dict(line.split() for line in (folder / "memory.stat").read_text().splitlines())
-                yield int((folder / most).read_text()) - int((folder / used).read_text()) + int(files.get(idle, 0))
+                yield limit - int((folder / used).read_text()) + int(files.get(idle, 0))
             except (OSError, ValueError):  # no such group, or none that is limited
                 pass
             if folder == root:

@@ -44,7 +44,7 @@ def candidate_pairs(examined: Examined, loading: Loading, before: BoolArray | No
         needed = _reached(examined, loading.times(_NEEDED))
         found = before if (before | ~needed).all() else before | _reached(examined, loading.times(_AHEAD))
     holding = examined.interface.B[examined.interface.rows(found)]
-    if free_motions(examined.motions, examined.constraints, holding).shape[1]:
+    if free_motions(examined.motions, examined.resisted, holding).shape[1]:
         return np.ones_like(found)
     return found
 

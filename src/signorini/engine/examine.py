@@ -20,7 +20,14 @@ from signorini.fem.body_frames import BodyFrames
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
-from signorini.fem.rigid import ConnectedBody, connected_bodies, describe_motions, free_motions, rigid_motions
+from signorini.fem.rigid import (
+    ConnectedBody,
+    connected_bodies,
+    describe_motions,
+    free_motions,
+    resistance,
+    rigid_motions,
+)
 from signorini.fem.space import Space, make_space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.fem.turning_bodies import turning_bodies
@@ -40,6 +47,7 @@ class Examined:
     ----------
     loads : name to nodal forces at factor 1, each (dofs,)
     parts, motions : connected pieces and their rigid motions, (dofs, motions of all parts)
+    resisted : (motions, motions) what supports and foundations take of them, see `fem.rigid.resistance`
     floating : (motions, k) rigid motions that supports leave free and contact must hold
     frames : of bodies that may turn by any angle
     loading : the most that its first step imposes, or steps before it did
@@ -53,6 +61,7 @@ class Examined:
     loads: Mapping[str, Array]
     parts: tuple[ConnectedBody, ...]
     motions: sp.csr_array
+    resisted: Array
     floating: Array
     frames: BodyFrames
     loading: Loading
@@ -106,6 +115,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         start.check(model, interface)
     parts = connected_bodies(space, model)
     motions = rigid_motions(space, parts)
+    resisted = resistance(motions, constraints)
     loading = loading_of(schedule[0], loads, constraints.prescribed, None if start is None else start.loading)
     examined = Examined(
         model=model,
@@ -115,7 +125,8 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         loads=loads,
         parts=parts,
         motions=motions,
-        floating=floating_motions(motions, constraints, interface),
+        resisted=resisted,
+        floating=floating_motions(motions, resisted, interface),
         frames=turning_bodies(space, model, parts) if model.slides else BodyFrames(dimension=space.components),
         loading=loading,
         scale=data_scale(space, model, loading, interface),
@@ -154,11 +165,12 @@ def _refuse_unheld(examined: Examined, schedule: Sequence[Stage]) -> None:
         if (stage.released, stage.inactive) in seen:
             continue
         seen.add((stage.released, stage.inactive))
-        alike = stage.released == schedule[0].released
-        now = examined.constraints if alike else make_constraints(space, model, without=stage.released)
+        resisted = examined.resisted
+        if stage.released != schedule[0].released:
+            resisted = resistance(examined.motions, make_constraints(space, model, without=stage.released))
         left = interface.among(~pairs_of(model, interface, stage.inactive)) if stage.inactive else interface
         try:
-            refuse_free_motions(space, now, left, examined.parts, examined.motions)
+            refuse_free_motions(space, resisted, left, examined.parts, examined.motions)
         except InputError as error:
             raise left_out(error, stage) from error
 
@@ -174,7 +186,7 @@ def left_out(error: InputError, stage: Stage) -> InputError:
 
 def refuse_free_motions(
     space: Space,
-    constraints: Constraints,
+    resisted: Array,
     interface: Interface,
     parts: tuple[ConnectedBody, ...],
     motions: sp.csr_array,
@@ -184,7 +196,7 @@ def refuse_free_motions(
     Parameters
     ----------
     space : unknowns
-    constraints, interface : the supports and the pairs
+    resisted, interface : what supports take of the motions, and the pairs
     parts, motions : connected pieces, and (dofs, motions of all of them) their rigid motions
 
     Raises
@@ -194,12 +206,12 @@ def refuse_free_motions(
     """
     dofs = space.dofs(np.unique(interface.B.indices // space.components)).ravel()
     touching = sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), (len(dofs), space.number_of_dofs))
-    free = free_motions(motions, constraints, touching)
+    free = free_motions(motions, resisted, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
     rubbing = (interface.friction.rubs & (interface.anisotropy > 0).T).ravel()
     resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
-    free = free_motions(motions, constraints, resisting)
+    free = free_motions(motions, resisted, resisting)
     if free.shape[1]:
         raise InputError(
             f"{_say(parts, free)}: nothing but frictionless contact, which cannot resist; add a support or friction"
@@ -210,12 +222,12 @@ def _say(parts: tuple[ConnectedBody, ...], motions: Array) -> str:
     return ", and ".join(describe_motions(parts, motions))
 
 
-def floating_motions(motions: sp.csr_array, constraints: Constraints, interface: Interface) -> Array:
+def floating_motions(motions: sp.csr_array, resisted: Array, interface: Interface) -> Array:
     """(motions, k) Combinations of rigid motions that neither supports nor ties resist.
 
     Parameters
     ----------
     motions : (dofs, motions of all parts)
-    constraints, interface : the supports, and the pairs with their ties
+    resisted, interface : what supports take of them, and the pairs with their ties
     """
-    return free_motions(motions, constraints, interface.B[interface.rows(interface.tied)])
+    return free_motions(motions, resisted, interface.B[interface.rows(interface.tied)])

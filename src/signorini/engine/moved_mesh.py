@@ -25,7 +25,7 @@ from signorini.engine.stride_pairs import where_bodies_are
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.body_frames import BodyFrames
 from signorini.fem.loads import nodal_loads
-from signorini.fem.rigid import connected_bodies, rigid_motions
+from signorini.fem.rigid import connected_bodies, resistance, rigid_motions
 from signorini.fem.space import make_space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.fem.worn_mesh import WornSide, cell_heights, worn_places
@@ -113,6 +113,7 @@ def _examined(now: Prepared, model: Model) -> Examined:
     interface = with_geometry(now.interface, found)
     parts = connected_bodies(space, model)
     motions = rigid_motions(space, parts)
+    resisted = resistance(motions, constraints)
     return Examined(
         model=model,
         space=space,
@@ -121,7 +122,8 @@ def _examined(now: Prepared, model: Model) -> Examined:
         loads={name: now.multiplied.get(name, 1.0) * forces for name, forces in nodal_loads(space, model).items()},
         parts=parts,
         motions=motions,
-        floating=floating_motions(motions, constraints, interface),
+        resisted=resisted,
+        floating=floating_motions(motions, resisted, interface),
         frames=BodyFrames(dimension=space.dimension),
         loading=now.loading,
         scale=now.scale,

@@ -25,6 +25,7 @@ from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.errors import InputError
+from signorini.fem.rigid import resistance
 from signorini.fem.stiffness import reduced_stiffness
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import Interface, under_laws
@@ -138,11 +139,13 @@ class Prepared(Examined, DiscreteModel):
         """Under all supports but some; what is factorised is not theirs yet."""
         constraints = make_constraints(self.space, self.model, without=released)
         prescribed = {name: self.multiplied.get(name, 1.0) * u for name, u in constraints.prescribed.items()}
+        resisted = resistance(self.motions, constraints)
         return replace(
             self,
             constraints=replace(constraints, prescribed=prescribed),
             posed=prescribed,
-            floating=floating_motions(self.motions, constraints, self.interface),
+            resisted=resisted,
+            floating=floating_motions(self.motions, resisted, self.interface),
             released=released,
         )
 
@@ -261,7 +264,7 @@ class Prepared(Examined, DiscreteModel):
             multiplied=factor | {name: factor.get(name, 1.0) * old for name, old in self.multiplied.items()},
             clock=Clock(),
         )
-        refuse_free_motions(self.space, now.constraints, interface, self.parts, self.motions)
+        refuse_free_motions(self.space, self.resisted, interface, self.parts, self.motions)
         return now.under(interface, loading_of(next(stages(model)), now.loads, now.posed), self.absent)
 
 

@@ -178,9 +178,9 @@ def nodal_volumes(space: Space, model: Model) -> Array:
     """``int N_k dx`` of every node, (nodes,), of quadratic cells also negative; 0 at nodes of no cell."""
     volumes = np.zeros(len(space.mesh.points))
     for block, weights in zip(space.blocks, space.volumes, strict=True):
-        at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[block.cells])
+        at = block.values @ space.mesh.points[block.cells]
         weights = weights * measure(model, at, block.first + np.arange(len(block.cells)))
-        np.add.at(volumes, block.cells, weights @ block.values)
+        volumes += np.bincount(block.cells.ravel(), (weights @ block.values).ravel(), minlength=len(volumes))
     return volumes
 
 

@@ -181,25 +181,37 @@ def _rotation_planes(dimension: int) -> tuple[tuple[int, int], ...]:
     return ((0, 1),) if dimension == 2 else ((1, 2), (2, 0), (0, 1))
 
 
-def free_motions(motions: sp.csr_array, constraints: Constraints, held: sp.csr_array) -> Array:
-    """Rigid motions that supports and elastic foundations allow and that ``held`` does not see.
+def resistance(motions: sp.csr_array, constraints: Constraints) -> Array:
+    """(motions of all parts, motions of all parts) Products of what supports and elastic foundations take of motions.
 
     Parameters
     ----------
     motions : (dofs, motions of all parts), see :func:`rigid_motions`
     constraints : what supports hold, and elastic foundations
+    """
+    # what supports, rigid boundaries and equations hold is what the free displacements cannot represent
+    lost = motions - constraints.transform @ motions[constraints.leaders]
+    # springs count as held, whatever their stiffness
+    springs = [(S / abs(S).max()) @ motions for S in constraints.springs.values()]
+    taken = sp.vstack([lost, *springs]) if springs else lost
+    return np.asarray((taken.T @ taken).toarray())
+
+
+def free_motions(motions: sp.csr_array, resisted: Array, held: sp.csr_array) -> Array:
+    """Rigid motions that supports and elastic foundations allow and that ``held`` does not see.
+
+    Parameters
+    ----------
+    motions : (dofs, motions of all parts), see :func:`rigid_motions`
+    resisted : (motions of all parts, motions of all parts), see :func:`resistance`
     held : (rows, dofs) sparse, further components that are held, of unit size
 
     Returns
     -------
     (motions of all parts, k) coefficients, a basis as simple as it can be
     """
-    # what supports, rigid boundaries and equations hold is what the free displacements cannot represent
-    lost = motions - constraints.transform @ motions[constraints.leaders]
-    # springs count as held, whatever their stiffness
-    springs = [(S / abs(S).max()) @ motions for S in constraints.springs.values()]
-    seen = sp.vstack([lost, held @ motions, *springs])
-    values, vectors = scipy.linalg.eigh((seen.T @ seen).toarray())
+    seen = held @ motions
+    values, vectors = scipy.linalg.eigh(resisted + (seen.T @ seen).toarray())
     return _readable(vectors[:, values <= _HELD_LEAST * max(1.0, values[-1])])
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 import scipy.sparse as sp
@@ -260,7 +260,7 @@ def make_space(mesh: Mesh, *, kind: str = "", obstacles: int = 0, linked: IntArr
         _check_radii(mesh)
     blocks, first = [], 0
     for family, cells in mesh.cells.items():
-        blocks.append(_block(family, cells, first, ring))
+        blocks.append(Block(family=family, cells=cells, first=first, **_reference(family, ring)))
         first += len(cells)
     linked = np.empty(0, np.int64) if linked is None else linked
     components = len(axes(kind)) if kind else mesh.points.shape[1]
@@ -272,7 +272,9 @@ def make_space(mesh: Mesh, *, kind: str = "", obstacles: int = 0, linked: IntArr
     return space
 
 
-def _block(family: str, cells: IntArray, first: int, ring: bool) -> Block:
+@cache
+def _reference(family: str, ring: bool) -> dict[str, Array]:
+    """What all cells of a family share, by name of a block: found once, which small models would wait for."""
     what = _ELEMENTS[family]
     element = what.kind()
     where, weights = _rule(element, what.ring if ring else what.plane)
@@ -281,21 +283,18 @@ def _block(family: str, cells: IntArray, first: int, ring: bool) -> Block:
     nodes = element.doflocs[order].T
     values, gradients = _shape(element, where, order)
     stress_values, stress_gradients = _shape(element, best, order)
-    return Block(
-        family=family,
-        cells=cells,
-        first=first,
-        values=values,
-        gradients=gradients,
-        weights=weights,
-        corners=_shape(element, nodes, order)[1],
-        stress_values=stress_values,
-        stress_gradients=stress_gradients,
-        to_nodes=_monomials(nodes, what.monomials) @ np.linalg.pinv(_monomials(best, what.monomials)),
-        to_best=_monomials(best, what.monomials) @ np.linalg.pinv(_monomials(where, what.monomials)),
-        pressures=_monomials(where, what.pressures),
-        stress_pressures=_monomials(best, what.pressures),
-    )
+    return {
+        "values": values,
+        "gradients": gradients,
+        "weights": weights,
+        "corners": _shape(element, nodes, order)[1],
+        "stress_values": stress_values,
+        "stress_gradients": stress_gradients,
+        "to_nodes": _monomials(nodes, what.monomials) @ np.linalg.pinv(_monomials(best, what.monomials)),
+        "to_best": _monomials(best, what.monomials) @ np.linalg.pinv(_monomials(where, what.monomials)),
+        "pressures": _monomials(where, what.pressures),
+        "stress_pressures": _monomials(best, what.pressures),
+    }
 
 
 def _rule(element: skfem.Element, degree: int) -> tuple[Array, Array]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, scaled_rows
 from signorini.interface.interface import Interface
 
 _HELD_TOL = 1e-12  # of the size of a row of B: below it supports hold what the row sees
@@ -60,7 +60,7 @@ def active_pairs(B: sp.csr_array, interface: Interface, candidates: BoolArray) -
     candidates : (n,) pairs that may touch
     """
     moves = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel()) > _HELD_TOL
-    seen = sp.csr_array(sp.diags_array(moves.astype(np.float64)) @ B)
+    seen = scaled_rows(B, moves.astype(np.float64))
     seen.eliminate_zeros()
     held = ~moves[: len(interface)] & (interface.normal_compliance == 0.0)
     return ActivePairs(seen, moves, held, candidates & ~held & ~interface.tied)

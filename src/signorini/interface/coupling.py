@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, scaled_rows
 
 _KNOWN = 1e-7  # of what facets are beside the surface that they stand for: it is not known better
 
@@ -78,7 +78,7 @@ class Coupling:
         """(k, nodes of the mesh) What a pair sees along its own normal: weights of the nonmortar side, which sum to 1,
         minus those of the mortar side, which sum to 1 too.
         """
-        return sp.csr_array(sp.diags_array(1.0 / self.area) @ along(self.forces, self.normals))
+        return scaled_rows(along(self.forces, self.normals), 1.0 / self.area)
 
 
 def geometric_gap(coupling: Coupling, points: Array) -> Array:
@@ -109,7 +109,7 @@ def joined_gaps(parts: Sequence[FacetGaps]) -> FacetGaps:
 
 def along(forces: tuple[sp.csr_array, ...], directions: Array) -> sp.csr_array:
     """Component of the vectors of every pair along a direction of its own (k, d), (k, nodes of the mesh)."""
-    first, *others = (sp.diags_array(directions[:, i]) @ force for i, force in enumerate(forces))
+    first, *others = (scaled_rows(force, directions[:, i]) for i, force in enumerate(forces))
     return sp.csr_array(sum(others, first))
 
 
@@ -125,7 +125,7 @@ def point_coupling(
     relative : (k, nodes of the mesh) weights of the nonmortar side minus those of the mortar side
     fallen : (k,) how far the facets opposite lie behind the surfaces that they stand for, length; None: nowhere
     """
-    forces = tuple(sp.csr_array(sp.diags_array(part) @ relative) for part in normal_areas.T)
+    forces = tuple(scaled_rows(relative, part) for part in normal_areas.T)
     smoothing = None if fallen is None else -fallen * np.linalg.norm(normal_areas, axis=1)
     return Coupling(nodes=nodes, normal_areas=normal_areas, forces=forces, smoothing=smoothing)
 

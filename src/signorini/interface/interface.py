@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, extent
+from signorini.arrays import Array, BoolArray, IntArray, extent, scaled_rows
 from signorini.errors import InputError
 from signorini.fem.obstacles import carried, placed
 from signorini.fem.space import Space
@@ -251,21 +251,23 @@ def _relative_rows(
     space: Space, model: Model, parts: Sequence[Pairs], normals: Array, axes: Array, still: BoolArray
 ) -> sp.csr_array:
     """B: the normal rows of all pairs, then those along every tangent."""
-    count = [len(part.gap) for part in parts]
-    per_area = sp.diags_array(1.0 / _joined([part.coupling.area for part in parts], (0,)))
-    none = sp.csr_array((0, len(space.mesh.points)))
+    none, area = sp.csr_array((0, len(space.mesh.points))), _joined([part.coupling.area for part in parts], (0,))
     closing, sliding = (
-        tuple(per_area @ sp.vstack([none, *(part[i] for part in of)]) for i in range(space.dimension))
+        tuple(
+            scaled_rows(sp.vstack([none, *(part[i] for part in of)]).tocsr(), 1.0 / area)
+            for i in range(space.dimension)
+        )
         for of in ([part.coupling.forces for part in parts], [part.sliding for part in parts])
     )
-    carrier = np.repeat([part.obstacle for part in parts], count).astype(int)
+    carrier = np.repeat([part.obstacle for part in parts], [len(part.gap) for part in parts]).astype(int)
     rows = [_with_obstacles(space, model, carrier, closing)]
     for k in range(space.dimension - 1):
         slid = _with_obstacles(space, model, carrier, _sliding_rows(sliding, normals, axes[:, k]))
-        rows.append(sp.diags_array(np.where(still[:, k], 0.0, 1.0)) @ slid)
+        rows.append(scaled_rows(slid, np.where(still[:, k], 0.0, 1.0)))
     if model.twists:
         nothing, radii = sp.csr_array(closing[0].shape), space.mesh.points[:, 0]
-        around = per_area @ sp.vstack([none, *(hoop_rows(part.coupling, part.own, radii) for part in parts)])
+        twisted = sp.vstack([none, *(hoop_rows(part.coupling, part.own, radii) for part in parts)]).tocsr()
+        around = scaled_rows(twisted, 1.0 / area)
         rows.append(_with_obstacles(space, model, carrier, (nothing, nothing, around)))
     B = sp.csr_array(sp.vstack(rows))
     B.sum_duplicates()  # entries in order from the start: sums do not depend on who has looked at them before
@@ -375,8 +377,7 @@ def _sliding_rows(closing: tuple[sp.csr_array, ...], normals: Array, axes: Array
     """
     onto, aside = along(closing, normals), along(closing, axes)
     return tuple(
-        sp.csr_array(sp.diags_array(axes[:, i]) @ onto - sp.diags_array(normals[:, i]) @ aside)
-        for i in range(axes.shape[1])
+        sp.csr_array(scaled_rows(onto, axes[:, i]) - scaled_rows(aside, normals[:, i])) for i in range(axes.shape[1])
     )
 
 

@@ -7,6 +7,7 @@ import hashlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,9 @@ from signorini.solution.scale import Loading
 from signorini.solution.state import State
 
 _WHERE = ("start",)
+
+_DIGESTS: WeakKeyDictionary[Mesh, str] = WeakKeyDictionary()
+"""Of meshes that were asked for one: nobody edits a mesh, and every solve asks."""
 
 _POSED = {
     "gap": "the initial gap {}",
@@ -201,8 +205,11 @@ def digest(mesh: Mesh) -> str:
     >>> len(digest(mesh))
     32
     """
+    known = _DIGESTS.get(mesh)
+    if known is not None:
+        return known
     found = hashlib.blake2b(np.ascontiguousarray(mesh.points).tobytes(), digest_size=16)
     for family, cells in mesh.cells.items():
         found.update(family.encode())
         found.update(np.ascontiguousarray(cells, dtype=np.int64).tobytes())
-    return found.hexdigest()
+    return _DIGESTS.setdefault(mesh, found.hexdigest())
