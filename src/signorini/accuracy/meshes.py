@@ -11,8 +11,10 @@ import numpy as np
 from signorini.accuracy.curves import curves_of
 from signorini.accuracy.node_values import CarriedValues, has_node_values
 from signorini.arrays import Array, IntArray
-from signorini.meshing.simplices import Curve, Simplices
+from signorini.errors import InputError
+from signorini.meshing.simplices import Curve, Simplices, corner_numbers
 from signorini.model.accuracy import Accuracy
+from signorini.model.links import Equation, Term
 from signorini.model.mesh import CORNERS, NODES_PER_CELL, Mesh
 from signorini.model.model import Model
 
@@ -54,6 +56,7 @@ class RefinedMeshes:
                 f"{' and '.join(cut)} cells are cut into quadratic {kind}, which are halved where they lack",
             )
         self.simplices = Simplices.of(mesh)
+        self._equations = [_on_corners(equation, i, mesh) for i, equation in enumerate(model.equations)]
         self._values = CarriedValues(model, self.simplices) if has_node_values(model) else None
 
     def first(self) -> Model:
@@ -79,7 +82,7 @@ class RefinedMeshes:
         bodies = [
             replace(body, formulation=None) if body.formulation == "incompatible" else body for body in model.bodies
         ]
-        return replace(model, bodies=bodies)
+        return replace(model, bodies=bodies, equations=self._equations)
 
 
 def grown(simplices: Simplices, squares: Array, growth: float, curves: dict[str, Curve]) -> Simplices:
@@ -105,6 +108,20 @@ def grown(simplices: Simplices, squares: Array, growth: float, curves: dict[str,
         parents = finer.parents if parents is None else np.vstack([parents, finer.parents[len(parents) :]])
         found, sizes = finer, smaller
     return found if parents is None else replace(found, parents=parents, origin=origin)
+
+
+def _on_corners(equation: Equation, i: int, mesh: Mesh) -> Equation:
+    """Equation i with the numbers that nodes have on refined meshes, where corners come first."""
+    corner, terms = corner_numbers(mesh), list[Term]()
+    for k, (on, axis, factor) in enumerate(equation.terms):
+        if isinstance(on, int):
+            own = corner[mesh.labels == on]
+            if not len(own) or own[0] < 0:
+                words = f"is node {on}; expected a corner of some cell, or a node of none, where the mesh is refined"
+                raise InputError(words, where=("equation", i, "terms", k, 0))
+            on = int(own[0]) + 1
+        terms.append((on, axis, factor))
+    return replace(equation, terms=terms)
 
 
 def _curves(mesh: Mesh, request: Accuracy) -> dict[str, Curve]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -15,6 +16,8 @@ from signorini.accuracy.meshes import RefinedMeshes
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
 from signorini.model.accuracy import Accuracy, Asked
+from signorini.model.links import Equation
+from signorini.model.mesh import Mesh
 from signorini.model.model import Model
 from signorini.model.outputs import Output
 from signorini.solution.accuracy import AccuracyResult, MeshLevel
@@ -126,14 +129,20 @@ def refuse(model: Model, *, whole: bool = False) -> None:
     """
     found = [("contacts that slide far", model.slides), ("contacts that wear", model.wears)]
     if whole:
-        found += [("bolts", bool(model.bolts)), ("cyclic symmetries", bool(model.cyclic_symmetries))]
+        found += [("cyclic symmetries", bool(model.cyclic_symmetries))]
         found += [
-            ("equations", bool(model.equations)),
+            ("equations between the nodes of two sides", any(map(partial(_pairs, model.mesh), model.equations))),
             ("forces given node by node", any(load.nodal_forces is not None for load in model.loads)),
         ]
     for name, there in found:
         if there:
             raise InputError(f"does not know {name}; expected a model without", where=("accuracy",))
+
+
+def _pairs(mesh: Mesh, equation: Equation) -> bool:
+    """Whether an equation goes from node to node of two places, which refined meshes have elsewhere."""
+    named = {on for on, _, _ in equation.terms if isinstance(on, str) and (on in mesh.boundaries or on in mesh.nodes)}
+    return sum(len(mesh.nodes_of(name)) > 1 for name in named) > 1
 
 
 def _known(number: float | None) -> float | None:
