@@ -173,6 +173,12 @@ def test_transverse_shear_sticks_and_an_initial_gap_closes_first(tmp_path):
     assert_allclose(sg.solve(found.model).steps[0].contacts[0].gap, -0.025, rtol=1e-12)
 
 
+def test_general_contact_leaves_gaskets_to_their_sections(tmp_path):
+    given = PLANE + "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n"
+    (contact,) = load_deck(deck(tmp_path, given)).model.contacts
+    assert contact.name == "SHEET"
+
+
 def line_of(path: Path, start: str) -> int:
     return next(i for i, line in enumerate(path.read_text().split("\n"), 1) if line.startswith(start))
 
@@ -218,6 +224,16 @@ def line_of(path: Path, start: str) -> int:
             {"curves": CURVE + "*GASKET ELASTICITY, COMPONENT=MEMBRANE\n100., 0.3\n"},
             "*GASKET ELASTICITY",
             "COMPONENT=MEMBRANE is not supported",
+        ),
+        (
+            {"mesh": PLANE + "*SURFACE, NAME=SIDE\nSHEET, S1\n"},
+            "SHEET, S1",
+            "gasket elements have no faces here; expected those of the bodies beside them",
+        ),
+        (
+            {"mesh": PLANE + "*SOLID SECTION, ELSET=SHEET, MATERIAL=STEEL\n"},
+            "*SOLID SECTION, ELSET=SHEET",
+            "'SHEET' holds GKPE4 beside CPE4 of the model; expected *GASKET SECTION for these",
         ),
         ({"curves": CURVE + "*EXPANSION\n1.E-5\n"}, "*EXPANSION", "of a *GASKET BEHAVIOR is not supported"),
     ],

@@ -76,7 +76,7 @@ def find_facing(
     Raises
     ------
     DeckError
-        If nothing lies opposite anything else.
+        If nothing lies opposite anything else, and nothing was taken before.
     """
     opening.refuse_unknown((), ("OP",))
     included, excluded = _included(cards, known), _sides(cards, "CONTACT EXCLUSIONS", known)
@@ -86,6 +86,8 @@ def find_facing(
     wanted = _between(a, b, included) if included else np.ones(len(a), bool)
     wanted &= ~_between(a, b, [*excluded, *taken])
     first, second, a, b = first[wanted], second[wanted], a[wanted], b[wanted]
+    if not len(first) and taken:
+        return []  # all that could touch does so already
     if not len(first):
         raise opening.error("finds no faces of two parts that lie opposite each other; expected some, or *CONTACT PAIR")
     law, laws = np.full(len(first), -1), list(known.interactions)

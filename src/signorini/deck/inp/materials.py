@@ -216,12 +216,11 @@ def _what_is_left(sections: Sequence[Section], owner: IntArray, grid: DeckGrid) 
 
 
 def _refuse_skins(card: Card, name: str, members: IntArray, grid: DeckGrid) -> None:
-    for skin in grid.skins:
+    for skin in (*grid.skins, *grid.gaskets):
         if np.isin(skin.index, members).any():
             cells = grid.groups[0].type.name
-            raise card.error(
-                f"'{name}' holds {skin.type.name} beside {cells} of the model; expected no section for these"
-            )
+            other = "*GASKET SECTION" if skin.type.gasket else "no section"
+            raise card.error(f"'{name}' holds {skin.type.name} beside {cells} of the model; expected {other} for these")
 
 
 def _by_formulation(members: IntArray, grid: DeckGrid) -> Iterator[tuple[str, IntArray]]:

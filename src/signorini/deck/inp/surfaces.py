@@ -67,6 +67,8 @@ class ElementFaces:
 
     def keys(self, elements: IntArray, face: str, at: Row, name: str) -> IntArray:
         """Keys of one face, as ``S2`` or ``P2``, of elements; the line ``at`` of the keyword ``name`` asks for it."""
+        if any(np.isin(elements, group.index).any() for group in self.grid.gaskets):
+            raise at.error(f"{name}: gasket elements have no faces here; expected those of the bodies beside them")
         number = int(face[1:]) if face[1:].isdigit() else 0
         keys: IntArray = FACES * elements + min(number, FACES) - 1
         if not 1 <= number <= FACES or (self.ends[keys, 0] < 0).any():
