@@ -166,7 +166,8 @@ def test_verify(
 ) -> None:
     asked = []
 
-    def run(*, slow: bool, begin: Any) -> Iterator[dict[str, Any]]:
+    def run(slow: bool, begin: Any, processes: int, _beside: Any) -> Iterator[dict[str, Any]]:
+        assert processes >= 1
         asked.append(slow)
         for done, one in enumerate(passed):
             begin("disk", done, len(passed))

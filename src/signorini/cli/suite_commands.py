@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -16,6 +17,7 @@ from signorini.output.atomic_write import atomic_write
 
 _VERIFY_COLUMNS = ("passed", "computed", "reference", "error", "tolerance", "case, quantity; source")
 _COLUMN_WIDTH = 12  # letters
+_PROCESSES = 4  # that share the cases at most: each holds a model, and the longest cases take a part of all
 _BENCH_COLUMNS = (
     "name",
     "dofs",
@@ -36,12 +38,16 @@ _BENCH_COLUMNS = (
 def verify(options: argparse.Namespace) -> int:
     """Print every row as soon as it is computed; 0 only if every case passed."""
     file = _json_file(options.json)
+    from signorini.cores import number_of_threads
+    from signorini.linalg.multifrontal import compiled
     from signorini.verify.suite import verification_rows
 
+    beside = None if compiled() else importlib.import_module("signorini.cli.first_run").compile_loops
+    processes = min(number_of_threads(), _PROCESSES)
     cases: list[Mapping[str, Any]] = []
     with progress_bar() as tell:
         print(_line(_VERIFY_COLUMNS))
-        for case in verification_rows(slow=options.all, begin=_beginning(tell)):
+        for case in verification_rows(options.all, _beginning(tell), processes, beside):
             if not cases or case["case"] != cases[-1]["case"]:
                 print(case["case"])
             cases.append(case)

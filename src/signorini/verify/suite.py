@@ -3,8 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from multiprocessing import get_context
 
+from signorini.cores import threads
 from signorini.verify import (
     bolts,
     bounded,
@@ -37,6 +41,7 @@ from signorini.verify import (
 from signorini.verify.check import Check
 
 Case = Callable[[], Iterator[Check]]
+Row = dict[str, str | float | bool]
 Begin = Callable[[str, int, int], None]
 
 QUICK: tuple[Case, ...] = (
@@ -145,20 +150,64 @@ SLOW: tuple[Case, ...] = (
 )
 
 
-def verification_rows(slow: bool = False, begin: Begin = lambda *_: None) -> Iterator[dict[str, str | float | bool]]:
-    """Run the quick cases, or all of them: the rows of the table, each as soon as it is computed.
+def verification_rows(
+    slow: bool = False,
+    begin: Begin = lambda *_: None,
+    processes: int = 1,
+    beside: Callable[[], None] | None = None,
+) -> Iterator[Row]:
+    """Run the quick cases, or all of them: the rows of the table in its order, each as soon as it is computed.
 
     Parameters
     ----------
+    slow : whether all
     begin : told before every case what it is, how many are done and how many there are
+    processes : that share the cases; a row comes once its case is done where there are several
+    beside : what one of them does while the first case runs
 
     Yields
     ------
     rows with case, quantity, computed, reference, error, tolerance, source, passed, and at_least: the reference is a
     lower bound
     """
-    cases = QUICK + SLOW if slow else QUICK
-    for done, case in enumerate(cases):
+    yield from rows_of(QUICK + SLOW if slow else QUICK, begin, processes, beside)
+
+
+def rows_of(
+    cases: Sequence[Case], begin: Begin, processes: int = 1, beside: Callable[[], None] | None = None
+) -> Iterator[Row]:
+    """Rows of cases.
+
+    Parameters
+    ----------
+    cases : in the order of their rows
+    begin, processes, beside : as of :func:`verification_rows`
+    """
+    if processes == 1:
+        yield from _in_turn(cases, [partial(_rows, case) for case in cases], begin)
+        return
+    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+        futures = [pool.submit(_all_rows, cases[0])]
+        if beside is not None:
+            pool.submit(beside)
+        futures += [pool.submit(_all_rows, case) for case in cases[1:]]
+        try:
+            yield from _in_turn(cases, [future.result for future in futures], begin)
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def _in_turn(cases: Sequence[Case], found: Iterable[Callable[[], Iterable[Row]]], begin: Begin) -> Iterator[Row]:
+    for done, (case, rows) in enumerate(zip(cases, found, strict=True)):
         begin(case.__name__.replace("_", " "), done, len(cases))
-        for check in case():
-            yield check.row()
+        yield from rows()
+
+
+def _rows(case: Case) -> Iterator[Row]:
+    for check in case():
+        yield check.row()
+
+
+def _all_rows(case: Case) -> list[Row]:
+    with threads(1):
+        return list(_rows(case))
