@@ -162,3 +162,18 @@ def test_a_folder_from_python_is_that_of_a_run(tmp_path):
     assert main(["plot", str(tmp_path / "python"), "--what", "stress"]) == 0
     with pytest.raises(sg.InputError, match="holds the results of another deck"):
         sg.solve(model).save_results(tmp_path / "run")
+
+
+def test_tables_of_a_result_folder(solution, tmp_path, capsys):
+    solution.save_results(tmp_path)
+    for words in (["--what", "history"], [], ["--step", "fret", "--load", "0.3", "-o", str(tmp_path / "then.csv")]):
+        assert main(["table", str(tmp_path), *words]) == 0
+    written = [line.rsplit("/", 1)[1] for line in capsys.readouterr().out.splitlines()]
+    assert written == ["history_table.csv", "contact_table.csv", "then.csv"]
+    solution.history.write(tmp_path / "expected.csv")
+    assert (tmp_path / "history_table.csv").read_text() == (tmp_path / "expected.csv").read_text()
+    rows = list(csv.DictReader((tmp_path / "then.csv").open()))
+    assert [float(row["pressure"]) for row in rows] == solution.at("fret", load=0.3).contact("floor").pressure.tolist()
+    assert main(["table", str(tmp_path), "--what", "history", "--load", "0.5"]) == 2
+    assert main(["table", str(tmp_path), "--load", "1.5"]) == 2
+    assert "load: is 1.5; expected a part of step 2 between 0 and 1" in capsys.readouterr().err

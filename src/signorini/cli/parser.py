@@ -166,6 +166,12 @@ def _add_plot(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None
     plot.add_argument("--scale", type=float, metavar="S", help="factor of displacements, 0: undeformed")
     plot.add_argument("-o", dest="file", metavar="FILE", help="PNG, PDF or SVG file (default: WHAT.png in DIR)")
 
+    table = commands.add_parser("table", parents=parents, help="write contacts or the history of results as columns")
+    table.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
+    table.add_argument("--what", choices=("contact", "history"), default="contact", help="default: contact")
+    table.add_argument("--step", metavar="N", help="contacts at one step, its number or name (default: all)")
+    table.add_argument("--load", type=float, metavar="X", help="part of the step that is behind, 0 to 1 (default: 1)")
+    table.add_argument("-o", dest="file", metavar="FILE", help="CSV file (default: contact_table.csv, ... in DIR)")
     report = commands.add_parser("report", parents=parents, help="write the results in a folder as one HTML page")
     report.add_argument("folder", metavar="DIR", help="a folder that 'run' has written")
     report.add_argument("-o", dest="file", metavar="FILE", help="HTML file (default: report.html in DIR)")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``signorini plot``, ``report`` and ``diff``: pictures and a page of a result folder, two results side by side."""
+"""``signorini plot``, ``report``, ``table`` and ``diff``: pictures, a page and columns of results, two compared."""
 
 from __future__ import annotations
 
@@ -49,6 +49,23 @@ def plot(options: argparse.Namespace) -> int:
 def _step(given: str | None) -> int | str | None:
     """A number where it is one, otherwise a name."""
     return int(given) if given is not None and given.isdecimal() else given
+
+
+def table(options: argparse.Namespace) -> int:
+    """Write the columns and say where they are."""
+    folder, moment = Path(options.folder), {"step": _step(options.step), "load": options.load}
+    file = Path(options.file) if options.file else folder / f"{options.what}_table.csv"
+    if not file.parent.is_dir():
+        raise InputError(f"there is no folder '{file.parent}'", where=("-o",))
+    solution, asked = dressed(read_folder(folder), raise_on_failure=False), moment != {"step": None, "load": None}
+    if options.what == "history":
+        if asked:
+            raise InputError("has all moments; expected --what contact with --step or --load", where=("--what",))
+        solution.history.write(file)
+    else:
+        (solution.at(**moment) if asked else solution).contact_table().write(file)
+    print(file)
+    return 0
 
 
 def report(options: argparse.Namespace) -> int:

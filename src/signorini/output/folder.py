@@ -39,8 +39,8 @@ except ImportError:  # Windows has no such module; two runs into one folder are 
 _MAX_KEEP_SHARE = 0.1  # of the time: more than that a run does not spend on writing what is finished while steps wait
 _ASIDE_PREFIX = ".writing-"  # of folders in which files are written before they appear
 _OWN_NAMES = re.compile(
-    r"(summary\.json|(contact|history|fatigue)\.csv|state\.npz|solution(_\d{4,})?\.vtu|contact\.(vtu|pvd)|"
-    r"solution\.(pvd|h5|frd|dat)|"
+    r"(summary\.json|(contact|history|fatigue|contact_table|history_table)\.csv|state\.npz|solution(_\d{4,})?\.vtu|"
+    r"contact\.(vtu|pvd)|solution\.(pvd|h5|frd|dat)|"
     r"(contact|stress|displacement|peeq|mesh|view|history|wear|fatigue|accuracy|escape)\.png|report\.html|"
     r"(modes|damping|loops)\.csv|modes\.vtu|(modes|damping)\.png)"
 )
