@@ -111,7 +111,7 @@ def test_an_agent_checks_solves_and_sees_a_deck(here, deck, tmp_path):
         here,
         ("check", {"deck": str(deck)}),
         ("run", {"deck": str(deck), "folder": folder}),
-        ("plot", {"folder": folder, "what": "contact"}),
+        ("plot", {"folder": folder, "what": "stress", "choices": {"component": "yy", "step": 1, "range": [-5, 0]}}),
         ("plot", {"folder": folder, "what": "stresses"}),
         ("report", {"folder": folder}),
     )

@@ -23,6 +23,7 @@ from pydantic import Field
 
 from signorini._version import __version__
 from signorini.cli.exit_codes import DONE, EXIT_CODES, NO_SOLUTION, WRONG_INPUT
+from signorini.cli.parser import PICTURES
 from signorini.errors import one_of
 
 _INSTRUCTIONS = (
@@ -33,6 +34,13 @@ _INSTRUCTIONS = (
 )
 _PROGRESS = re.compile(r"signorini: \d+ s, (\d+)%: (.*)")
 
+_CHOICES = (
+    "what the picture shows: step (number or name), load (part of it that is behind, 0 to 1), component (von_mises, "
+    "principal, xx, ... or magnitude, x, ...), range [min, max], zoom [x from, x to, y from, y to, ...], "
+    "scale of displacements"
+)
+
+Choice = str | int | float | list[float]
 Deck = Annotated[str, Field(description="path of a deck: *.toml, or *.inp of Abaqus or CalculiX")]
 Folder = Annotated[str, Field(description="result folder that the tool run has written")]
 Allowed = Annotated[tuple[str, ...], Field(description="folders besides its own that the deck may name files in")]
@@ -86,11 +94,21 @@ async def report(folder: Folder) -> dict[str, Any]:
 @server.tool(annotations=_WRITES, structured_output=False)
 async def plot(
     folder: Folder,
-    what: Annotated[str, Field(description="contact, stress, peeq, mesh, history, wear, fatigue, accuracy, escape")],
+    what: Annotated[str, Field(description=f"one of {', '.join(PICTURES)}")] = "contact",
+    choices: Annotated[dict[str, Choice] | None, Field(description=_CHOICES)] = None,
 ) -> list[str | Image]:
-    """Draw results: the picture, and what the command says of it."""
+    """Draw results: the picture, and what the command says of it.
+
+    Parameters
+    ----------
+    folder, what : as of `signorini plot`
+    choices : option to its value
+    """
     file = Path(folder) / f"{what}.png"
-    answer = await _answer("plot", f"--what={what}", "-o", str(file), "--", folder)
+    asked = []
+    for name, value in (choices or {}).items():
+        asked += [f"--{name}", *map(str, value if isinstance(value, list) else [value])]
+    answer = await _answer("plot", f"--what={what}", *asked, "-o", str(file), "--", folder)
     return [json.dumps(answer), *([Image(path=file)] if answer["exit_code"] == DONE else [])]
 
 
