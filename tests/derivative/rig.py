@@ -88,3 +88,22 @@ def tilted_rig(friction=0.2, facets=8, steps=None):
             sg.Step(name="turn", scale={"pull": 0.1, "across": 1.0}, path=path),
         ],
     )
+
+
+def twisted_rig():
+    """A hub shrunk on a shaft, which is pulled and twisted."""
+    shaft = sg.rectangle(nx=2, ny=6, width=5.0, height=12.0, origin=(5.0, 0.0))
+    hub = sg.rectangle(nx=2, ny=3, width=5.0, height=6.0, origin=(10.0, 0.0))
+    contact = sg.Contact("hub.left", "shaft.right", friction=0.15, interference=0.05, name="joint", facets=8)
+    return sg.Model(
+        sg.join({"shaft": shaft, "hub": hub}),
+        kind="axisymmetric twist",
+        bodies=[sg.Body("shaft", sg.Elastic(E=1000.0, nu=0.3)), sg.Body("hub", sg.Elastic(E=800.0, nu=0.25))],
+        supports=[sg.Support("hub.right", u=(None, 0.0, 0.0))],
+        loads=[sg.Load("shaft.top", traction=(0.0, 0.2, 0.1), name="pull")],
+        contacts=[contact],
+        steps=[
+            sg.Step(name="fit", scale={"pull": 0.0}, path="exact"),
+            sg.Step(name="pull", scale={"pull": 1.0}, path="exact"),
+        ],
+    )

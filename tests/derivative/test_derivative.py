@@ -8,7 +8,7 @@ import pytest
 
 import signorini as sg
 from signorini.derivative.functionals import value
-from tests.derivative.rig import rig
+from tests.derivative.rig import STEPS, rig
 from tests.engine.test_bonds import bonded_bar
 
 
@@ -116,6 +116,20 @@ def test_a_ring_has_the_same_derivatives(parameter):
     model = rig("axisymmetric")
     solution = sg.solve(model, tape=True)
     check(model, {name: solution.derivative(output) for name, output in outputs(model).items()}, parameter)
+
+
+def test_friction_that_is_lowered_under_load():
+    """Pairs slip at that load, at once; what derivatives of the step before ask for is from before that."""
+    oiled = sg.Step(name="oiled", scale={"pull": 1.0}, friction={"joint": 0.1}, path="exact")
+    model = rig(steps=(*STEPS[:2], oiled))
+    model = replace(model, supports=[replace(model.supports[0], u=(0.0, -0.02)), model.supports[1]])
+    solution = sg.solve(model, tape=True)
+    assert len(solution.tape.legs) == 4
+    derivatives = {name: solution.derivative(output) for name, output in outputs(model).items()}
+    wanted = sum(step.dissipation for step in solution.steps)
+    assert derivatives["dissipation"].value == pytest.approx(wanted, rel=1e-10)
+    check(model, derivatives, "load.pull")
+    check(model, derivatives, "interference.joint")
 
 
 def test_the_shape_of_bodies_is_a_parameter(solved):

@@ -7,7 +7,8 @@ import pytest
 
 import signorini as sg
 from signorini.derivative.functionals import value
-from tests.derivative.rig import ball_rig, tilted_rig
+from signorini.model.outputs import Displacement, Stress
+from tests.derivative.rig import ball_rig, tilted_rig, twisted_rig
 from tests.derivative.test_derivative import with_body, with_contact, with_load
 
 NODE = 4  # sticks at last, after it has slipped
@@ -48,7 +49,7 @@ def check(model, solution, outputs, parameter):
         derivative = solution.derivative(output)
         size = abs(derivative.value) / (1000.0 if parameter.startswith("E") else 1.0)
         assert derivative.by(parameter) == pytest.approx(0.5 * (below + above), rel=1e-6, abs=1e-6 * size), output
-        if not isinstance(output, type(sg.displacement(0, (0, 0)))):
+        if not isinstance(output, Displacement | Stress):
             kind, name = parameter.split(".")
             assert solution.tangent(**{kind: name}).of(output) == pytest.approx(derivative.by(parameter), rel=1e-9)
 
@@ -73,6 +74,22 @@ def test_increments_that_end_at_events_on_cones():
     assert any(point.follows for point in points)
     outputs = [sg.pressure("joint").peak, sg.force("joint", along=(1.0, 0.2, 0.3)), sg.dissipation()]
     check(model, solution, outputs, "friction.joint")
+
+
+@pytest.mark.parametrize("parameter", ["friction.joint", "load.pull"])
+def test_bodies_that_twist(parameter):
+    model = twisted_rig()
+    solution = sg.solve(model, tape=True)
+    assert any(point.at_event for point in solution._taped.view.points)
+    node, top = int(solution.contact("joint").node[1]), int(model.mesh.nodes_of("shaft.top")[0])
+    outputs = [
+        sg.pressure("joint").peak,
+        sg.traction("joint")[node, 1],
+        sg.dissipation(),
+        sg.displacement(top, along=(0.0, 0.2, 1.0)),
+        sg.stress("shaft", top, "xx"),
+    ]
+    check(model, solution, outputs, parameter)
 
 
 def test_dissipation_is_that_of_the_solution(solved):

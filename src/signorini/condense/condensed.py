@@ -102,16 +102,16 @@ class Condensed:
         return self.image.load(free.ravel() - self._leaning @ resultant, resultant)
 
     def free(self, motion: Array, resultant: Array) -> Array:
-        """(d a + k,) Scaled motions of the pairs without their rigid part, and scaled resultants: linear in both.
+        """(p, d a + k) Scaled motions of the pairs without their rigid part, and scaled resultants: linear in both.
 
         Parameters
         ----------
-        motion : (d, a) of the pairs where no force acts on them, length
-        resultant : (k,) work of the loads on the rigid motions
+        motion : (p, d, a) of the pairs where no force acts on them, length
+        resultant : (p, k) work of the loads on the rigid motions
         """
-        coefficients, R = self._basis.coefficients(resultant), self.image.R
-        c = (self.root * motion).ravel() - self._leaning @ coefficients
-        return np.concatenate([c - R @ (R.T @ c), coefficients])
+        coefficients, R = self._basis.coefficients(resultant.T).T, self.image.R
+        c = (self.root * motion).reshape(len(motion), -1) - coefficients @ self._leaning.T
+        return np.concatenate([c - (c @ R) @ R.T, coefficients], axis=1)
 
     def free_transposed(self, free: Array) -> tuple[Array, Array]:
         """The transpose of `free`, of functionals (p, d a + k): in motions (p, d, a) and in resultants (p, k)."""

@@ -54,7 +54,7 @@ def weights(output: Output, view: HistoryView) -> dict[int, Weights]:
 def displacement_weights(output: Displacement | Stress, view: HistoryView) -> Array:
     """(dofs,) How an output of bodies changes with displacements."""
     i = view.number(output.load_factor)
-    found, d = np.zeros(view.space.number_of_dofs), view.model.dimension
+    found, d = np.zeros(view.space.number_of_dofs), view.model.components
     if isinstance(output, Displacement):
         found[d * output.node : d * output.node + d] = _along(output.along, d)
         return found
@@ -79,7 +79,7 @@ def _of_bodies(output: Displacement | Stress, view: HistoryView, u: Array, i: in
     """An output of bodies under displacements (dofs,) at a point."""
     if isinstance(output, Stress):
         return stress_at(output, view, u, i)
-    return float(view.space.at_nodes(u)[_node(output.node, view)] @ _along(output.along, view.model.dimension))
+    return float(view.space.at_nodes(u)[_node(output.node, view)] @ _along(output.along, view.model.components))
 
 
 def stress_at(output: Stress, view: HistoryView, u: Array, i: int) -> float:

@@ -269,5 +269,5 @@ def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[T
             h_rate=None,
             r_rate=None,
             acting=_NOBODY,
-            increment=True,
+            increment=leg.low < leg.high,  # at once friction does the work of its mean
         )

@@ -231,7 +231,7 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
     found: list[PointChange] = []
     bounds: dict[InterfaceSystem, BoundTerm | None] = {}
     memory: Array | None = None
-    at_once = change.moved(points)
+    at_once = _seen(points, change.moved(points))
     for i, point in enumerate(points):
         system, states = point.system, point.states
         if system not in bounds:
@@ -246,7 +246,7 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
             given[1:] = states.unit * _on_branches(bound, states.branch, np.maximum(point.r[0], 0.0))
         load = system.imposed(held, given)
         if at_once:
-            load += system.condensed.free(*at_once[i])
+            load += at_once[i]
         h, r = system.respond(states, load)
         h, r = h + held, r + given
         part = found[-1].part if point.follows and i and points[i - 1].leg == point.leg else 0.0
@@ -260,6 +260,16 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
         whole[0][:, system.active], whole[1][:, system.active] = h / system.root, r * system.root
         memory = whole[0, 1:]
         found.append(PointChange(h=whole[0], r=whole[1], part=part, bound=bound))
+    return found
+
+
+def _seen(points: Sequence[TapePoint], moved: Sequence[tuple[Array, Array]]) -> dict[int, Array]:
+    """(d n + k,) By number of the point, what its equations see of motions of the pairs and resultants of loads."""
+    found: dict[int, Array] = {}
+    for system in dict.fromkeys(point.system for point in points) if moved else ():
+        own = [i for i, point in enumerate(points) if point.system is system]
+        free = system.condensed.free(*(np.stack([moved[i][k] for i in own]) for k in range(2)))
+        found.update(zip(own, free, strict=True))
     return found
 
 

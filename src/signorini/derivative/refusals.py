@@ -47,8 +47,6 @@ def refuse_tape(tape: Tape, model: Model) -> None:
         raise InputError("no part of the history was followed; there is nothing to differentiate")
     for leg in tape.legs:
         prepared = leg.prepared
-        if prepared.space.components != prepared.model.dimension:
-            raise InputError(f"{_UNKNOWN} axisymmetric bodies that twist")
         if prepared.solver.paths is None:
             raise InputError(f"{leg.where}: contact was solved on the bodies as they are; {_UNKNOWN} that")
         if prepared.resting.any():
@@ -59,4 +57,4 @@ def _what_was_lost(model: Model) -> str:
     """What in a step is none of what derivatives go through."""
     if any(step.release or step.hold or step.restore or step.inactive or step.active for step in model.steps):
         return "supports and contacts that change from step to step"
-    return "jumps, bodies that a load carries until they touch, and friction that is lowered under load"
+    return "jumps, and bodies that a load carries until they touch"

@@ -69,7 +69,10 @@ class HistoryView:
         """
         if load_factor is None:
             return len(self.points) - 1
-        ends = {point.load_factor: i for i, point in enumerate(self.points) if not point.at_event}
+        ends: dict[float, int] = {}
+        for i, point in enumerate(self.points):
+            if not point.at_event:  # a step ends before what the next one changes at once
+                ends.setdefault(point.load_factor, i)
         nearest = min(ends, key=lambda end: abs(end - load_factor))
         if abs(nearest - load_factor) > _SAME_LOAD:
             told = ", ".join(f"{end:g}" for end in sorted({round(end, 9) for end in ends}))

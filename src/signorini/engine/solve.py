@@ -30,7 +30,7 @@ from signorini.engine.step_parts import (
     straight_parts,
 )
 from signorini.engine.support_changes import at_the_end, handed_over, refuse_moved
-from signorini.engine.tape import Tape
+from signorini.engine.tape import Leg, Tape
 from signorini.engine.ways import follow_part
 from signorini.engine.wear_steps import follow_wearing
 from signorini.engine.wellposed import assess
@@ -293,8 +293,9 @@ def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[
             trace=(trace,),
             snapshots=(Snapshot(number=stage.number, fraction=0.0, what="change", state=after),),
             notes=(RELAXED,),
+            legs=(Leg.at_once(prepared, stage.name, state, after, stage.number - 1.0),),
         )
-        behind.append(lightened(slipped, every=at_events, end=False, heated=heated))
+        behind.append(lightened(slipped, every=at_events, end=False, heated=heated, taped=taped))
         state = after
     reaction, offset = state.point.reaction, state.point.offset
     if len(offset):

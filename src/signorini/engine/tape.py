@@ -37,6 +37,28 @@ class Leg:
     segment: Segment | None = None
     states: tuple[State, ...] = ()
 
+    @classmethod
+    def at_once(cls, prepared: Prepared, where: str, before: State, after: State, load_factor: float) -> Leg:
+        """What pairs do at the same loads under another law, as one increment.
+
+        Parameters
+        ----------
+        prepared, where : the model under the law of the step, and its name
+        before, after : states
+        load_factor : at which that is
+        """
+        end = before.point
+        return cls(
+            prepared=prepared,
+            where=where,
+            before=before,
+            after=after,
+            end=end,
+            low=load_factor,
+            high=load_factor,
+            states=(after,),
+        )
+
 
 @dataclass(kw_only=True, eq=False)
 class Tape:
