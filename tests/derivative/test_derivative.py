@@ -132,6 +132,30 @@ def test_friction_that_is_lowered_under_load():
     check(model, derivatives, "interference.joint")
 
 
+@pytest.mark.parametrize("parameter", ["interference.joint", "E.block", "load.pull"])
+def test_a_load_carries_a_body_until_it_touches(parameter):
+    """Where it is then, the pair that touches tells, and with it where pairs begin to stick."""
+    model = rig(steps=[sg.Step(scale={"pull": 1.0, "heat": 0.5}, path="exact")])
+    model = replace(
+        model,
+        supports=[sg.Support("pad.left", u=(0.0, None)), model.supports[1]],
+        loads=[sg.Load("pad.top", traction=(2.0, -20.0), name="pull"), model.loads[1]],
+        contacts=[replace(model.contacts[0], interference=-0.01)],
+    )
+    solution = sg.solve(model, tape=True)
+    assert "approaches" in solution.steps[0].notes[0]
+    change, step = PARAMETERS[parameter]
+    if parameter == "interference.joint":
+        change, step = lambda m, q: with_contact(m, interference=-0.01 + q), 1e-7
+    views = [sg.solve(change(model, q), tape=True)._taped.view for q in (step, -step)]
+    for output in outputs(model).values():
+        if output.load_factor is None:
+            high, low = (value(output, view) for view in views)
+            derivative = solution.derivative(output)
+            size = max(abs(derivative.value), 1e-6) * (1e-3 if parameter.startswith("E") else 1.0)
+            assert derivative.by(parameter) == pytest.approx((high - low) / (2.0 * step), rel=1e-6, abs=1e-6 * size)
+
+
 def test_the_shape_of_bodies_is_a_parameter(solved):
     model, _, derivatives = solved
     found, step = [], 2e-6

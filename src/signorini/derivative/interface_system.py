@@ -18,7 +18,7 @@ from itertools import islice
 import numpy as np
 from scipy.linalg import lapack
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.derivative.state_blocks import LONGEST_BLOCK, StateBlocks
 from signorini.engine.increments import moved_by_supports
 from signorini.engine.prepare import Prepared
@@ -26,7 +26,7 @@ from signorini.friction.history.plane.state_inverse import SingularState
 from signorini.friction.linear import Equilibrium, LinearSystem, Unknowns, linear_system
 from signorini.law.bound import SIGN
 from signorini.law.pair import Tangent
-from signorini.law.states import SLIP_PLUS, STICK
+from signorini.law.states import OPEN, SLIP_PLUS, STICK
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -42,7 +42,7 @@ class PairStates:
     tangent : in space, the law to first order
     """
 
-    held: Array
+    held: BoolArray
     unit: Array
     branch: IntArray
     codes: IntArray | None = None
@@ -104,6 +104,15 @@ class InterfaceSystem:
             branch=np.where(slips, (codes - SLIP_PLUS) // 2, 0),
             codes=codes,
         )
+
+    def states_without_friction(self, codes: IntArray) -> PairStates:
+        """States of open pairs and of such that slip without a force, by codes (n,)."""
+        if self.directions == 2:
+            return self.states_of_codes(codes)
+        none, closed = np.zeros((2, self.pairs)), codes != OPEN
+        left = np.zeros(self.pairs, dtype=np.int64)
+        tangent = Tangent(closed=closed, left=left, share=none, fixed=none, tau=none, kappa=none[0])
+        return PairStates(held=np.zeros((2, self.pairs), dtype=np.bool_), unit=none, branch=left, tangent=tangent)
 
     def states_of_increment(self, codes: IntArray, h: Array, r: Array) -> PairStates:
         """The states at the end of an increment.

@@ -13,6 +13,7 @@ from functools import cached_property
 from itertools import chain, pairwise
 
 import numpy as np
+import scipy.linalg
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.derivative.conditions import (
@@ -34,10 +35,12 @@ from signorini.derivative.space_conditions import (
 from signorini.engine.tape import Leg, Tape
 from signorini.errors import InputError
 from signorini.friction.history import PathState
+from signorini.law.states import OPEN, SLIP_PLUS
 from signorini.solution.state import LoadPoint
 
 _GRAZES = 1e-9  # of the fastest condition of a piece: one that hardly moves
 _STANDSTILL = 1e-13  # of a segment: a piece that is no longer
+_TOUCHES = 1e-9  # of the largest gap, and of what rigid motions open most: none
 _NOBODY: IntArray = np.zeros(0, dtype=np.int64)  # acts at a given load
 
 
@@ -250,6 +253,25 @@ def _late(before: PathState | None, after: PathState) -> BoolArray:
     return np.asarray(np.abs(taken - at_end) < np.abs(taken - in_mean), dtype=np.bool_)
 
 
+def _touching(system: InterfaceSystem, h: Array, where: str) -> PairStates:
+    """The states at the end of a rigid motion: as many pairs touch, without a force, as tell where the bodies are.
+
+    Raises
+    ------
+    InputError
+        Where so many do not touch.
+    """
+    touches = np.flatnonzero(h[0] <= _TOUCHES * np.abs(h[0]).max())
+    rigid = system.law.image.R[touches]
+    factor, order = scipy.linalg.qr(rigid.T, mode="r", pivoting=True)
+    pivots = np.abs(np.diag(factor[0] if isinstance(factor, tuple) else factor))
+    if len(pivots) < system.motions or pivots.min() <= _TOUCHES * pivots.max():
+        raise InputError(f"{where}: derivatives do not know bodies that a load carries along the side that they touch")
+    codes = np.full(system.pairs, OPEN)
+    codes[touches[order[: system.motions]]] = SLIP_PLUS
+    return system.states_without_friction(codes)
+
+
 def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:
     """The ends of the increments of a leg."""
     active, root = system.active, system.root
@@ -263,7 +285,9 @@ def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[T
             load=state.point,
             load_factor=leg.low + part * (leg.high - leg.low),
             part=part,
-            states=system.states_of_increment(state.status[active], slipped, r),
+            states=_touching(system, h, leg.where)
+            if leg.carried
+            else system.states_of_increment(state.status[active], slipped, r),
             h=h,
             r=r,
             h_rate=None,

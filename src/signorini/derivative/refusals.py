@@ -57,4 +57,4 @@ def _what_was_lost(model: Model) -> str:
     """What in a step is none of what derivatives go through."""
     if any(step.release or step.hold or step.restore or step.inactive or step.active for step in model.steps):
         return "supports and contacts that change from step to step"
-    return "jumps, and bodies that a load carries until they touch"
+    return "jumps, and bodies that a load carries while others press"

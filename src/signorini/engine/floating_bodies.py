@@ -12,6 +12,7 @@ from signorini.attempt import Spent
 from signorini.engine.increments import applied, certified, moving_away
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart
+from signorini.engine.tape import Leg
 from signorini.errors import SolveFailed
 from signorini.fem.loads import nodal_volumes
 from signorini.fem.rigid import describe_approach
@@ -165,6 +166,10 @@ def _approach(part: StepPart, apart: BoolArray, motion: Array, loose: Array, rel
         trace=(),
         snapshots=(Snapshot(number=part.interval.number, fraction=part.interval.low, what="approach", state=after),),
         notes=tuple(notes),
+        # of bodies that press elsewhere meanwhile derivatives know nothing
+        legs=()
+        if state.forces.any()
+        else (Leg.at_once(prepared, part.where, state, after, part.interval.factor(0.0), carried=True),),
     )
 
 

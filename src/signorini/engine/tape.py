@@ -24,6 +24,7 @@ class Leg:
     start : state of the path at the beginning, in the scaled units of the law; None in equal increments
     segment : the pieces of the path, in space increments that end at events; None in equal increments
     states : at the ends of equal increments; empty on a path
+    carried : whether loads carry bodies rigidly until they touch, at no load
     """
 
     prepared: Prepared
@@ -36,16 +37,20 @@ class Leg:
     start: PathState | None = None
     segment: Segment | None = None
     states: tuple[State, ...] = ()
+    carried: bool = False
 
     @classmethod
-    def at_once(cls, prepared: Prepared, where: str, before: State, after: State, load_factor: float) -> Leg:
-        """What pairs do at the same loads under another law, as one increment.
+    def at_once(
+        cls, prepared: Prepared, where: str, before: State, after: State, load_factor: float, *, carried: bool = False
+    ) -> Leg:
+        """What pairs do at the same loads, under another law or as bodies are carried until they touch.
 
         Parameters
         ----------
         prepared, where : the model under the law of the step, and its name
         before, after : states
         load_factor : at which that is
+        carried : see `Leg`
         """
         end = before.point
         return cls(
@@ -57,6 +62,7 @@ class Leg:
             low=load_factor,
             high=load_factor,
             states=(after,),
+            carried=carried,
         )
 
 
