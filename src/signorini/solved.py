@@ -163,12 +163,14 @@ class Solution(HistoryFields):
     def report(self, path: str | Path) -> None:
         """Write a report, one HTML file that needs nothing else: problem, results, certificate, curves, pictures.
 
+        With sensitivities where these were asked for before.
+
         Raises
         ------
         InputError
             If the name does not end in ``.html``.
         """
-        write_report(self, Path(path), self._fields)
+        write_report(self, Path(path), self._fields, self.known_sensitivities)
 
     def plot_escape(self) -> Figure:
         """Draw the motion along which bodies run away, where no equilibrium was found because of it.

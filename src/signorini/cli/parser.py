@@ -119,6 +119,9 @@ def _add_sensitivities(commands: Any, parents: Sequence[argparse.ArgumentParser]
     words = "the main answers by all that is given, per cent for per cent"
     by_all = commands.add_parser("sensitivities", parents=parents, help=words)
     by_all.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
+    by_all.add_argument(
+        "-o", dest="output", metavar="DIR", help="folder, of results maybe, for sensitivities.json, which reports show"
+    )
     by_all.add_argument("--json", action="store_true", help="print plain data for other programs")
     _add_threads(by_all)
 

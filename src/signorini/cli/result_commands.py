@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 from signorini.api import dressed
@@ -11,6 +12,7 @@ from signorini.errors import InputError
 from signorini.output.atomic_write import atomic_write
 from signorini.output.compare import compare
 from signorini.output.folder import read_folder, read_results
+from signorini.output.sensitivities_file import of_this_run, read_sensitivities
 from signorini.output.table import align
 from signorini.plot.look import Look
 from signorini.plot.pictures import VIEW, check_picture
@@ -74,7 +76,11 @@ def report(options: argparse.Namespace) -> int:
     file = Path(options.file) if options.file else folder / "report.html"
     if not file.parent.is_dir():
         raise InputError(f"there is no folder '{file.parent}'", where=("-o",))
-    write_report(read_folder(folder), file)
+    history, sensitivities = read_folder(folder), read_sensitivities(folder)
+    if sensitivities is not None and not of_this_run(sensitivities, history):
+        print(f"the sensitivities in '{folder}' are of another run; the report is without them", file=sys.stderr)
+        sensitivities = None
+    write_report(history, file, sensitivities=sensitivities)
     print(file)
     return 0
 

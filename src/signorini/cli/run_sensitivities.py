@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from pathlib import Path
 
 from signorini.api import solve
 from signorini.clock import Clock
@@ -12,6 +13,7 @@ from signorini.deck import Deck
 from signorini.derivative.refusals import refuse_model
 from signorini.errors import InputError
 from signorini.linalg.threads import one_thread
+from signorini.output.sensitivities_file import write_sensitivities
 from signorini.output.sensitivities_table import sensitivities_data, sensitivities_table
 
 
@@ -22,7 +24,7 @@ def run_sensitivities(deck: Deck, options: argparse.Namespace, clock: Clock) -> 
     Parameters
     ----------
     deck : as it was read
-    options : ``json`` of the command line
+    options : ``json`` and ``output`` of the command line
     clock : that tells progress
 
     Returns
@@ -34,6 +36,8 @@ def run_sensitivities(deck: Deck, options: argparse.Namespace, clock: Clock) -> 
         found = solve(deck.model, settings=deck.settings, clock=clock, tape=True).sensitivities()
     except InputError as error:
         raise deck.locate(error) from error
+    if options.output:
+        write_sensitivities(found, Path(options.output))
     if options.json:
         print(json.dumps(sensitivities_data(found), indent=1))
         return 0

@@ -82,6 +82,17 @@ class DifferentiableHistory(History):
         InputError
             As `derivative`.
         """
+        return self._sensitivities
+
+    @property
+    def known_sensitivities(self) -> Sensitivities | None:
+        """Sensitivities that were asked for, which reports show; None where none were."""
+        found: Sensitivities | None = self.__dict__.get("_sensitivities")
+        return found
+
+    @cached_property
+    def _sensitivities(self) -> Sensitivities:
+        """What `sensitivities` gives, found once."""
         return sensitivities(self._taped)
 
     @cached_property

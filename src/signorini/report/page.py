@@ -29,6 +29,7 @@ from signorini.report.contact_map import contact_maps
 from signorini.report.curves import forces, hysteresis, profiles, reactions
 from signorini.report.markup import listed, said, table
 from signorini.report.scene import scene
+from signorini.report.sensitivities import sensitivities_section
 from signorini.report.sketch import sketch_model
 from signorini.report.words import (
     CONTACT_HEAD,
@@ -44,6 +45,7 @@ from signorini.report.words import (
 )
 from signorini.solution.accuracy import AccuracyResult
 from signorini.solution.history import PHASES, History
+from signorini.solution.sensitivities import Sensitivities
 
 _MOST_EVENTS = 200  # in the list of a page; history.csv has all
 _MOST_STEPS = 30  # of which there are tables
@@ -59,7 +61,9 @@ _MEASURED = (
 )
 
 
-def write_report(history: History, path: Path, fields: Fields | None = None) -> None:
+def write_report(
+    history: History, path: Path, fields: Fields | None = None, sensitivities: Sensitivities | None = None
+) -> None:
     """Write the report of a history into one HTML file.
 
     Parameters
@@ -67,6 +71,7 @@ def write_report(history: History, path: Path, fields: Fields | None = None) -> 
     history : finished or not
     path : of the file, ``*.html``
     fields : of its model, where there are any already
+    sensitivities : of its answers, where they were asked for
 
     Raises
     ------
@@ -76,13 +81,20 @@ def write_report(history: History, path: Path, fields: Fields | None = None) -> 
     if path.suffix.lower() not in (".html", ".htm"):
         raise InputError(f"is '{path}'; expected a name that ends in .html", where=("path",))
     with atomic_write(path) as aside:
-        Path(aside).write_text(report(history, fields), encoding="utf-8")
+        Path(aside).write_text(report(history, fields, sensitivities), encoding="utf-8")
 
 
-def report(history: History, fields: Fields | None = None) -> str:
-    """The HTML of a report, see `write_report`."""
+def report(history: History, fields: Fields | None = None, sensitivities: Sensitivities | None = None) -> str:
+    """The HTML of a report.
+
+    Parameters
+    ----------
+    history, fields, sensitivities : as of `write_report`
+    """
     model, title = history.model, history.model.title or "untitled"
     sections = dict(_sections(history, fields))
+    if sensitivities is not None:
+        sections["Sensitivities"] = sensitivities_section(sensitivities)
     anchors = [(name, name.lower().replace(" ", "-")) for name in sections]
     body = "".join(f'<section id="{anchor}"><h2>{name}</h2>{sections[name]}</section>' for name, anchor in anchors)
     mesh = model.mesh
