@@ -177,6 +177,62 @@ def test_a_closure_beside_a_bond():
     assert pressure.min() < 0.02 < pressure.max()
 
 
+def test_a_closure_beside_a_bond_on_a_layer_stores_what_a_compliance_does():
+    """The layer of the bond is drawn, and its energy is there, too."""
+    found = []
+    for lid in ({"normal_compliance": 1e-3}, {"closure": sg.Closure([(0.0, 0.0), (1e-3, 1.0), (2e-3, 2.0)])}):
+        model = lidded(**lid)
+        contacts = [model.contacts[0], replace(model.contacts[1], normal_compliance=5e-4)]
+        found.append(in_increments(replace(model, contacts=contacts)))
+    beside(*found, 1e-9)
+    for one, two in zip(*(each.steps for each in found), strict=True):
+        assert one.work == pytest.approx(two.work, rel=1e-9)
+        assert one.energy_defect == pytest.approx(two.energy_defect, abs=1e-9 * abs(one.work))
+
+
+def rubbed(drag, lift=1.4, **rub):
+    """A block that is bonded below and lifted at one end, while a slider is drawn over it."""
+    blocks = {
+        "slider": sg.rectangle(width=0.6, height=0.3, nx=2, ny=1, origin=(0.2, 1.0)),
+        "block": sg.rectangle(width=2.0, height=1.0, nx=4, ny=2),
+    }
+    return sg.Model(
+        sg.join(blocks),
+        kind="plane strain",
+        bodies=[sg.Body(name, sg.Elastic(E=1000.0, nu=0.3)) for name in blocks],
+        supports=[sg.Support("slider.top", u=(drag, -0.004), name="drag")],
+        loads=[sg.Load("block.right", traction=(0.0, lift), name="lift")],
+        contacts=[
+            sg.Contact("slider.bottom", "block.top", friction=0.3, name="rub", **rub),
+            sg.Contact("block.bottom", sg.Plane((0, 0), (0, 1)), cohesion=sg.Cohesion(1.2, opening=0.02), name="bond"),
+        ],
+        steps=[sg.Step()],
+    )
+
+
+@pytest.mark.slow
+def test_sides_of_another_contact_slide_far():
+    """Not moved at all they are those that stay; drawn by facets they slide, and the bond goes on to open."""
+    beside(*(in_increments(rubbed(0.0, 1.0, **sides), 2) for sides in ({}, {"sliding": "finite"})), 1e-9)
+    near, far = (in_increments(rubbed(0.15, **sides), 1).steps[0] for sides in ({}, {"sliding": "finite"}))
+    assert far.certificate.passed
+    assert np.abs(far.contacts[0].slip).max() > 0.14
+    assert 0.0 < far.contacts[1].damage.max() < 1.0
+    assert not np.allclose(far.contacts[1].damage, near.contacts[1].damage, atol=1e-3)
+
+
+@pytest.mark.slow
+def test_another_contact_wears():
+    """So little that nothing changes, and so much that the slider presses less."""
+    plain = in_increments(rubbed(0.02), 16).steps[0]
+    little, much = (in_increments(rubbed(0.02, wear=sg.Wear(rate)), 16).steps[0] for rate in (1e-9, 3e-3))
+    assert_allclose(little.contacts[1].damage, plain.contacts[1].damage, atol=1e-6)
+    assert little.contacts[0].wear is not None
+    pressed, worn = (float(step.contacts[0].pressure @ step.contacts[0].area) for step in (plain, much))
+    assert worn < 0.99 * pressed
+    assert much.contacts[1].damage.max() > plain.contacts[1].damage.max() > 0.0
+
+
 def test_a_load_that_bonds_do_not_bear_is_named():
     model = replace(
         bonded_bar(sg.Cohesion(5.0)),

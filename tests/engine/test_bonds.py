@@ -161,15 +161,15 @@ def test_a_history_goes_on_from_a_file_and_not_with_another_bond(tmp_path):
         sg.solve(bonded_bar(sg.Cohesion(5.0, opening=0.03), 1.0, steps=steps[2:]), start=tmp_path / "start.npz")
 
 
-WEARING = sg.Contact("top", sg.Plane((0, 2), (0, -1)), friction=0.1, wear=sg.Wear(1e-6))
 REFUSED = [
-    ({"contacts": [*bonded_bar(GENTLE).contacts, WEARING]}, "a contact wears; expected none that does"),
-    (
-        {"contacts": [*bonded_bar(GENTLE).contacts, replace(WEARING, wear=None, sliding="finite")]},
-        "sides slide far; expected sides that stay opposite each other",
-    ),
     ({"steps": [sg.Step(friction={"bond": 0.1})]}, "changes contacts of a model with bonds"),
 ]
+
+
+@pytest.mark.parametrize("changed", [{"wear": sg.Wear(1e-6), "friction": 0.1}, {"sliding": "finite"}])
+def test_a_bonded_side_neither_wears_nor_slides_far(changed):
+    with pytest.raises(sg.InputError, match=r"^cohesion: is given, but the (contact wears|sides slide far)"):
+        replace(bonded_bar(GENTLE).contacts[0], **changed)
 
 
 @pytest.mark.parametrize(("changed", "told"), REFUSED)

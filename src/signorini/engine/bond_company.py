@@ -13,8 +13,13 @@ from signorini.model.model import Model
 
 def in_increments(model: Model) -> str | None:
     """Why bonds of a model are followed in increments, in words; None where they are on exact paths."""
-    if model.yields:
-        return "a body yields"
+    for found, words in (
+        (model.yields, "a body yields"),
+        (model.slides, "sides of another contact slide far"),
+        (model.wears, "another contact wears"),
+    ):
+        if found:
+            return words
     if any(contact.closure is not None for contact in model.contacts):
         return "another contact has a closure"
     for contact in model.contacts:
@@ -30,17 +35,11 @@ def refuse_beside_bonds(model: Model) -> None:
     Raises
     ------
     InputError
-        Contacts that wear or slide far, fatigue, steps that change contacts, or whose path is to be exact where it
-        cannot be.
+        Fatigue, steps that change contacts, or whose path is to be exact where it cannot be.
     """
-    first = next(i for i, contact in enumerate(model.contacts) if contact.cohesion is not None)
-    for found, words in (
-        (model.wears, "a contact wears; expected none that does"),
-        (model.slides, "sides slide far; expected sides that stay opposite each other"),
-        (bool(model.fatigue), "fatigue is asked for; expected none"),
-    ):
-        if found:
-            raise InputError(f"is given, but {words}", where=("contact", first, "cohesion"))
+    if model.fatigue:
+        first = next(i for i, contact in enumerate(model.contacts) if contact.cohesion is not None)
+        raise InputError("is given, but fatigue is asked for; expected none", where=("contact", first, "cohesion"))
     why = in_increments(model)
     for i, step in enumerate(model.steps):
         for key in ("friction", "active", "inactive"):

@@ -81,13 +81,12 @@ def missing_energy(prepared: Prepared, before: State, after: State, then: Prepar
 
 def interface_energy(prepared: Prepared, state: State) -> float:
     """In compliant interfaces, and in bonds that have opened."""
-    forces = np.where(prepared.absent, 0.0, state.forces)
-    interface = prepared.interface
+    forces, interface = np.where(prepared.absent, 0.0, state.forces), prepared.interface
+    stored = 0.0
+    if state.bonds is not None and interface.cohesion is not None:
+        stored = 0.5 * float(interface.cohesion.tension(state.bonds, state.gap) @ state.gap)
     if interface.closure is None:
-        stored = 0.5 * float(np.vdot(forces**2, interface.compliance))
-        if state.bonds is not None and interface.cohesion is not None:
-            stored += 0.5 * float(interface.cohesion.tension(state.bonds, state.gap) @ state.gap)
-        return stored
+        return stored + 0.5 * float(np.vdot(forces**2, interface.compliance))
     along = 0.5 * float(np.vdot(forces[1:] ** 2, interface.compliance[1:]))
     closure = interface.closure.after(state.borne)
-    return along + float(interface.area @ closure.energy(forces[0] / interface.area))
+    return stored + along + float(interface.area @ closure.energy(forces[0] / interface.area))

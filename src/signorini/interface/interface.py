@@ -138,7 +138,7 @@ class Interface:
         """(d, n) How far forces (d, n) move the sides of the pairs on what lies between them and has borne, length."""
         given = self.compliance * forces
         if self.closure is not None:
-            given[0] = self.closure.after(borne).at(np.maximum(forces[0], 0.0) / self.area)
+            given[0] = self.closure.after(borne).at(np.maximum(forces[0], 0.0) / self.area) + np.minimum(given[0], 0.0)
         return given
 
     def borne_after(self, before: Borne | None, forces: Array) -> Borne | None:
