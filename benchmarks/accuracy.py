@@ -34,7 +34,7 @@ DOCUMENT = Path(__file__).parent.parent / "docs" / "accuracy.md"
 PICTURE = DOCUMENT.parent / "figures" / "accuracy.png"
 HEAD = ("problem", "asked, %", "nodes", "meshes", "estimated, %", "true, %", "ratio", "work", "uniform")
 ASKED = (0.03, 0.01, 0.003)
-IN_SPACE = (0.1, 0.05, 0.03, 0.01)
+IN_SPACE = (0.1, 0.05, 0.03)
 FINEST = 60_000
 """Nodes of the finest meshes but those of references, and of the ball."""
 FINEST_BALL = 200_000
