@@ -260,3 +260,29 @@ def test_what_rounds_have_seen_tells_whether_bonds_are_stable():
         assert tensions.driven.any() != stable
         if stable:
             assert_allclose(tension, np.linalg.solve(np.eye(2) - W, [0.2, 0.2]).clip(0, 1), atol=1e-12)
+
+
+def test_bonds_that_are_free_to_slide_have_no_friction_while_they_hold():
+    """Certificates ask none of them, of a block that friction would hold back under a load along its sides."""
+    bond = sg.Cohesion(5.0, opening=0.02, shear="free")
+    bar = replace(bonded_bar(bond, 0.004), loads=[sg.Load("left", traction=(1.0, 0.0), name="side")])
+    model = replace(bar, contacts=[replace(bar.contacts[0], friction=0.3)], steps=[sg.Step()])
+    step = in_increments(model, 2).steps[0]
+    assert step.certificate.passed
+    assert np.abs(step.contacts[0].traction).max() == 0.0
+    beside(in_increments(model, 2), sg.solve(model), 1e-12)
+
+
+def test_increments_go_on_from_a_file_and_check_says_how_bonds_are_followed(tmp_path):
+    steps = [sg.Step(scale={"pull": pull}, path="increments", increments=2) for pull in (0.012, 0.004, 0.015)]
+    whole = sg.solve(bonded_bar(GENTLE, 1.0, steps=steps))
+    sg.solve(bonded_bar(GENTLE, 1.0, steps=steps[:2])).save_state(tmp_path / "start.npz")
+    rest = sg.solve(bonded_bar(GENTLE, 1.0, steps=steps[2:]), start=tmp_path / "start.npz").steps[0]
+    assert_allclose(rest.contacts[0].pressure, whole.steps[2].contacts[0].pressure, rtol=1e-12)
+    told = str(sg.check(bonded_bar(GENTLE, 1.0, steps=[*steps[:1], sg.Step(), sg.Step(increments="auto")])))
+    assert "2 increments" in told
+    assert "exact path" in told
+    assert "increments until forces change less than 0.001" in told
+    assert "increments until forces change less than 0.001" in str(
+        sg.check(lidded(closure=sg.Closure([(0, 0), (1, 1)])))
+    )
