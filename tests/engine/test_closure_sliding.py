@@ -2,6 +2,7 @@
 """Sides that slide far, wear, or both, across what closes by a law: against closed forms and one compliance."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -38,10 +39,16 @@ def bed_on_a_circle(closure):
     )
 
 
+@cache
+def slid(unloading):
+    """The bed on the circle, of a gasket that springs back so."""
+    return sg.solve(bed_on_a_circle(replace(GASKET, unloading=unloading)))
+
+
 @pytest.mark.parametrize("unloading", [None, STEEP])
 def test_a_bed_that_slides_over_a_circle_has_the_pressures_of_its_table(unloading):
     """Where every node is, its overlap is known; a gasket springs back from the largest that it has met."""
-    solution = sg.solve(bed_on_a_circle(replace(GASKET, unloading=unloading)))
+    solution = slid(unloading)
     x = np.linspace(-1.0, 1.0, 5)
     for step, end in zip(solution.steps, (0.0, STROKE), strict=True):
         at = x + np.linspace(0.0, end, 2001)[:, None]
@@ -59,15 +66,15 @@ def test_a_bed_that_slides_over_a_circle_has_the_pressures_of_its_table(unloadin
 @pytest.mark.parametrize("sliding", ["small", "finite"])
 def test_pressures_of_a_layer_that_wears_decay(sliding):
     """From cycle to cycle by k p, on every line of its own: in series with the block, whose compliance is 5e-6."""
-    table = [(0.0, 0.0), (0.02, 4.0), (0.03, 5.0), (0.04, 40.0)]
-    solution = sg.solve(worn_layer(table, cycles=8, sliding=sliding))
+    table = [(0.0, 0.0), (0.015, 4.3), (0.03, 5.0), (0.04, 40.0)]
+    solution = sg.solve(worn_layer(table, cycles=5, sliding=sliding))
     step, closures, pressures = solution.steps[1], *np.transpose(table)
     closed, rubbed = 0.03, 0.0
-    for _ in range(8):
+    for _ in range(5):
         pressure = np.interp(closed, closures + 5e-6 * pressures, pressures)
         closed, rubbed = closed - 1e-3 * pressure, rubbed + pressure
     left = np.interp(closed, closures + 5e-6 * pressures, pressures)
-    assert left < 4.0 < np.interp(0.03, closures, pressures)
+    assert left < 4.3 < np.interp(0.03, closures, pressures)
     assert_allclose(step.contacts[0].pressure, left, rtol=1e-12)
     assert step.contacts[0].wear.depth.max() == pytest.approx(1e-3 * rubbed, rel=1e-12)
     assert abs(step.energy_defect) < 1e-15
@@ -109,6 +116,7 @@ def hub_on_shaft(**given):
     )
 
 
+@pytest.mark.slow
 def test_one_line_is_a_compliance_and_a_steep_one_hard_contact():
     """Both sides meshed and worn, axisymmetric, and energies to rounding, which areas that change would miss."""
     line = sg.solve(hub_on_shaft(closure=sg.Closure([(0.0, 0.0), (0.02, 2.0)])))
@@ -125,8 +133,8 @@ def test_one_line_is_a_compliance_and_a_steep_one_hard_contact():
 
 
 def test_a_gasket_that_slides_goes_on_from_a_file(tmp_path):
-    model = bed_on_a_circle(replace(GASKET, unloading=STEEP))
-    whole = sg.solve(model)
+    whole = slid(STEEP)
+    model = whole.model
     sg.solve(replace(model, steps=model.steps[:1])).save_state(tmp_path / "start.npz")
     rest = sg.solve(replace(model, steps=model.steps[1:]), start=tmp_path / "start.npz").steps[0]
     assert np.array_equal(rest.contacts[0].pressure, whole.steps[1].contacts[0].pressure)
