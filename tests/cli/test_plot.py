@@ -43,10 +43,7 @@ def test_pictures_are_written(what: str, folder: Path, capsys: pytest.CaptureFix
     assert file.stat().st_size > 20_000
 
 
-def test_vector_formats_and_names(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["plot", str(folder), "-o", str(tmp_path / "a.svg")]) == 0
-    text = (tmp_path / "a.svg").read_text()
-    assert "<svg" in text
+def test_names_of_files(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(folder), "-o", str(tmp_path / "a.doc")]) == 2
     assert "expected a name that ends in .png, .pdf, .svg" in capsys.readouterr().err
     assert main(["plot", str(folder), "-o", str(tmp_path / "none" / "a.png")]) == 2

@@ -6,7 +6,6 @@ import re
 import shutil
 import subprocess
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +17,7 @@ from signorini.plot.style import STATUS_INK
 from signorini.report.charts import ChartData, Line, chart
 from signorini.report.contact_map import contact_maps
 from signorini.report.page import report
+from tests.helpers.lifted_block import DECK
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 NASTY = "</script><img src=x onerror=alert(1)>&\"'$title"
@@ -124,11 +124,12 @@ def test_a_failed_run_says_why_and_what_was_solved(tmp_path):
 
 
 def test_the_command_writes_the_page_of_a_folder(tmp_path, capsys):
-    deck = Path(__file__).parents[2] / "examples" / "zhu_cylinder.toml"
+    deck = tmp_path / "press.toml"
+    deck.write_text(DECK.replace("[0.0, 1.0]}]\ncontact", "[0.0, -7.8]}]\ncontact"))
     assert main(["run", str(deck), "-o", str(tmp_path / "out"), "--quiet"]) == 0
     assert main(["report", str(tmp_path / "out")]) == 0
     assert capsys.readouterr().out.strip() == str(tmp_path / "out" / "report.html")
-    assert "(0, 78)" in (tmp_path / "out" / "report.html").read_text()
+    assert "(0, 7.8)" in (tmp_path / "out" / "report.html").read_text()
     assert main(["report", str(tmp_path / "out"), "-o", str(tmp_path / "a" / "b.html")]) == 2
     assert main(["run", str(deck), "-o", str(tmp_path / "out"), "--quiet"]) == 0
     assert not (tmp_path / "out" / "report.html").exists()  # of the earlier run
