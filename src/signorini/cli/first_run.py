@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A second process beside the first run after an installation, which compiles what the run comes to last.
 
-It begins with the largest loops and goes on from the last ones towards the front, as the run goes on from the first:
-each finds on disk what the other has compiled. Neither waits: without the second process a run takes longer, no more.
+The run takes about as long for what it comes to first: the assembly and the order of elimination. From there on it
+finds on disk what the other process has compiled, the largest loop first. Neither waits: where the second process is
+late or missing, the run compiles itself.
 """
 
 from __future__ import annotations
@@ -20,20 +21,21 @@ from numba import typeof
 from signorini.condense.body_blocks import mirror
 from signorini.linalg import _front_solves, _fronts, _symbolic
 from signorini.linalg._blas import scratch
-from signorini.linalg._dissection import dissect
-from signorini.linalg._graph import Elimination, Graph, Rows, both_ways, quotient, subgraph
+from signorini.linalg._graph import Elimination, Graph, Rows
 from signorini.linalg.plan import RELAX, Fronts
 
 
 def calls() -> list[tuple[Any, tuple[object, ...]]]:
-    """Loops that every condensed run calls, in the order of `compile_loops`, with arguments of the types they have."""
+    """Loops of the second half of every condensed run, the largest first, then from the last one on, and arguments.
+
+    Arguments are of the types that loops have in a run; two processes at one large loop would waste their time.
+    """
     small, large, real, square = np.zeros(1, np.int32), np.zeros(1, np.int64), np.zeros(1), np.zeros((1, 1))
     graph, elimination, rows = Graph(small, small), Elimination(small, small), Rows(small, small, real)
     fronts = Fronts(small, small, large, small, small, small, large, small)
     tree = _fronts.Tree(fronts, rows, elimination, small, _fronts.Factors(real, square, real))
     solved = (fronts, real, square, real, scratch())
     return [
-        (dissect, (graph, square.astype(np.int32), 1)),
         (_fronts.factorise_fronts, (tree, 0, 1, _fronts.stacks(fronts, 1, (1, 1)), False)),
         (_front_solves.backward, solved),
         (_front_solves.forward, solved),
@@ -48,9 +50,6 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
         (_symbolic.column_counts, (graph, elimination, small)),
         (_symbolic.postorder, (small,)),
         (_symbolic.elimination_tree, (graph, elimination, 1)),
-        (subgraph, (graph, 1)),
-        (quotient, (graph, small, small, small)),
-        (both_ways, (graph,)),
     ]
 
 
