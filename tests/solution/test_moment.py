@@ -15,11 +15,11 @@ FIELDS = ("gap", "pressure", "traction", "slip", "sliding", "slip_range", "worn"
 
 def pushed(*, held: bool = True, steps: tuple[sg.Step, ...] = (), glued: bool = False) -> sg.Model:
     """A block that is pressed on a rough floor and pushed to and fro; held on its left, or by the floor alone."""
-    low = sg.rectangle(width=4.0, height=1.0, nx=8, ny=2)
+    low = sg.rectangle(width=4.0, height=1.0, nx=6, ny=1)
     mesh, sides, contacts = low, ("block",), [sg.Contact("bottom", FLOOR, friction=0.3, name="floor")]
     top, right = "top", "right"
     if glued:
-        high = sg.rectangle(width=4.0, height=1.0, nx=8, ny=2, origin=(0.0, 1.0))
+        high = sg.rectangle(width=4.0, height=1.0, nx=6, ny=1, origin=(0.0, 1.0))
         mesh, sides, top, right = sg.join({"low": low, "high": high}), ("low", "high"), "high.top", "high.right"
         contacts = [
             sg.Contact("low.bottom", FLOOR, friction=0.3, name="floor"),
@@ -47,7 +47,7 @@ def fretted() -> sg.Solution:
 
 @pytest.mark.parametrize(("held", "glued"), [(True, False), (False, False), (True, True)])
 def test_any_load_of_an_exact_path_is_as_if_it_had_been_asked_for(held, glued):
-    model, loads = pushed(held=held, glued=glued), (0.07, 0.31, 0.66, 0.9)
+    model, loads = pushed(held=held, glued=glued), (0.07, 0.31, 0.9)
     solution = sg.solve(model)
     asked = sg.solve(replace(model, steps=tuple(replace(step, at=loads) for step in model.steps)))
     floor = solution.last.contacts[0]
