@@ -48,3 +48,23 @@ def test_tolerances_of_a_press_fit_are_those_of_lame():
     exact = fit.closed()
     for name, derivative in found.items():
         assert derivative == pytest.approx(exact[name], rel=4e-3), name
+
+
+@pytest.mark.slow
+def test_a_crown_levels_a_roller_and_is_lundbergs_away_from_its_end():
+    roller = example("crown_roller")
+    places, loads, profile = roller.crown(10, 3)
+    straight, of_lundberg, found = loads[0], loads[1], loads[-1]
+    assert straight[-1] > 2.0
+    assert np.abs(of_lundberg - 1.0).max() < 0.5 * (straight[-1] - 1.0)
+    assert np.abs(found - 1.0).max() < 1e-6
+    assert len(loads) <= 7
+    inside = slice(2, 8)  # from a fifth to four fifths of its length
+    assert profile[inside] == pytest.approx(roller.lundberg(places)[inside], rel=0.15)
+    assert (np.diff(profile) > 0.0).all()
+
+
+def test_arrows_of_a_shape_are_drawn(tmp_path):
+    arrows = example("shape_arrows")
+    arrows.main(tmp_path)
+    assert (tmp_path / "shape_arrows.png").stat().st_size > 10_000

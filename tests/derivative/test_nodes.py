@@ -105,6 +105,9 @@ def test_loads_foundations_and_limits_of_the_friction_follow_their_nodes():
 
 def test_a_side_on_an_obstacle_has_them():
     derivative = check(sg.solve(zhu_cylinder(), tape=True), sg.force("foundation", along=(1, 0)))
+    # all lengths by one factor are the force by its inverse, but for that factor of the answer
+    larger = float(np.vdot(derivative.nodes, zhu_cylinder().mesh.points))
+    assert larger == pytest.approx(derivative.value - derivative.load["cut"], rel=1e-7)
     sides = np.zeros(len(derivative.nodes), dtype=bool)
     sides[np.unique(np.concatenate([np.ravel(part) for part in zhu_cylinder().mesh.boundaries.values()]))] = True
     assert np.abs(derivative.nodes[sides]).max() > 10.0 * np.abs(derivative.nodes[~sides]).max()
