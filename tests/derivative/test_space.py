@@ -113,15 +113,20 @@ def test_a_derivative_says_how_far_it_holds():
         assert states(0.2 + 1.1 * end) != states(0.2), words
 
 
-@pytest.mark.parametrize("parameter", ["load.pull", "E.block"])
-def test_a_pair_that_closes_at_the_end_has_two_sides(parameter):
+@pytest.fixture(scope="module")
+def closing():
+    """The same pressed until a pair closes, and not farther."""
     event = sg.solve(tilted_rig()).steps[0].events[-1]
     assert event.what == "closes"
     scale = {"down": event.load_factor, "pull": 0.4 * event.load_factor, "across": 0.0}
     model = tilted_rig(steps=[sg.Step(scale=scale, path="exact")])
-    node = int(event.nodes[0])
+    return model, sg.solve(model, tape=True), int(event.nodes[0])
+
+
+@pytest.mark.parametrize("parameter", ["load.pull", "E.block"])
+def test_a_pair_that_closes_at_the_end_has_two_sides(closing, parameter):
+    model, solution, node = closing
     outputs = [sg.pressure("joint")[node], sg.traction("joint")[node, 0], sg.dissipation()]
-    solution = sg.solve(model, tape=True)
     wanted = change_and_differences(model, parameter, outputs)
     for output, sides in zip(outputs, wanted, strict=True):
         size = max(map(abs, sides))

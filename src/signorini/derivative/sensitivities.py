@@ -71,10 +71,8 @@ def main_outputs(view: HistoryView) -> list[Output]:
     return found
 
 
-def _in_per_cent(history: TapedHistory, kind: str, name: str, given: float) -> Validity | None:
+def _in_per_cent(history: TapedHistory, kind: str, name: str, given: float) -> Validity:
     """In which changes of a parameter, in per cent of what is given, the sequence of events stays."""
-    if history.view.interface.directions == 3:
-        return None
     found = history.holds(kind, name)
     low, high = sorted((100.0 * found.low / given, 100.0 * found.high / given))
     return Validity(low=low, high=high, ends=found.ends if given > 0.0 else found.ends[::-1])

@@ -19,7 +19,7 @@ def sensitivities_table(found: Sensitivities) -> str:
     lines += ["", "per cent of each for one per cent of"]
     rows = [["parameter", "value", *numbers, "holds from", "to"]]
     for name, given, row, holds in zip(found.parameters, found.given, found.per_cent, found.holds, strict=True):
-        ends = ["", ""] if holds is None else [_per_cent(holds.low), _per_cent(holds.high)]
+        ends = _per_cent(holds.low), _per_cent(holds.high)
         rows.append([name, f"{given:.6g}", *(f"{part:.4f}" for part in row), *ends])
     lines += align(rows, right=range(1, len(rows[0])))
     told = [line for name, holds in zip(found.parameters, found.holds, strict=True) for line in _ends(name, holds)]
@@ -31,7 +31,7 @@ def sensitivities_data(found: Sensitivities) -> dict[str, Any]:
     """Plain data for other programs; None where nothing ends an interval."""
     rows = []
     for name, given, row, holds in zip(found.parameters, found.given, found.per_cent, found.holds, strict=True):
-        told = None if holds is None else {"low": _finite(holds.low), "high": _finite(holds.high), "ends": holds.ends}
+        told = {"low": _finite(holds.low), "high": _finite(holds.high), "ends": holds.ends}
         rows.append({"parameter": name, "value": float(given), "per_cent": row.tolist(), "holds_per_cent": told})
     outputs = [{"output": words, "value": float(at)} for words, at in zip(found.outputs, found.values, strict=True)]
     return {"outputs": outputs, "parameters": rows, "refused": list(found.refused)}
@@ -45,9 +45,7 @@ def _finite(change: float) -> float | None:
     return change if math.isfinite(change) else None
 
 
-def _ends(name: str, holds: Validity | None) -> list[str]:
+def _ends(name: str, holds: Validity) -> list[str]:
     """What happens at the ends of the interval of a parameter."""
-    if holds is None:
-        return []
     ends = zip((holds.low, holds.high), holds.ends, strict=True)
     return [f"  {name} {_per_cent(change)}: {words}" for change, words in ends if words]

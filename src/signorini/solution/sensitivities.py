@@ -35,8 +35,7 @@ class Sensitivities(Short):
     parameters : (n,) as ``kind.name``
     given : (n,) their values; 1 of loads and supports, which stand for all that is multiplied
     per_cent : (n, m)
-    holds : (n,) in which changes of the parameters, in per cent, the sequence of events stays; None in space, where
-        that is not known
+    holds : (n,) in which changes of the parameters, in per cent, the sequence of events stays
     refused : parameters without a derivative, and why
     """
 
@@ -45,5 +44,5 @@ class Sensitivities(Short):
     parameters: tuple[str, ...]
     given: Array
     per_cent: Array
-    holds: tuple[Validity | None, ...]
+    holds: tuple[Validity, ...]
     refused: tuple[str, ...] = ()
