@@ -35,7 +35,7 @@ def write_sensitivities(found: Sensitivities, folder: Path) -> None:
         Path(aside).write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
     rows = []
     for part in data["parameters"]:
-        holds = part["holds_per_cent"] or {"low": None, "high": None}
+        holds = part["holds_per_cent"]
         ends = {"holds_from_per_cent": holds["low"], "holds_to_per_cent": holds["high"]}
         answers = dict(zip(found.outputs, part["per_cent"], strict=True))
         rows.append({"parameter": part["parameter"], "value": part["value"], **answers, **ends})
@@ -80,10 +80,8 @@ def of_this_run(found: Sensitivities, history: History) -> bool:
     return bool(history.steps)
 
 
-def _validity(given: dict[str, object] | None) -> Validity | None:
+def _validity(given: dict[str, object]) -> Validity:
     """The interval of a parameter; infinite where nothing ends it."""
-    if given is None:
-        return None
     low, high = given["low"], given["high"]
     first, second = given["ends"]  # type: ignore[misc]
     return Validity(

@@ -29,11 +29,9 @@ def sensitivities_section(found: Sensitivities) -> str:
     ]
     rows, ends = [], []
     for name, given, row, holds in zip(found.parameters, found.given, found.per_cent, found.holds, strict=True):
-        interval = ("", "") if holds is None else tuple(map(_change, (holds.low, holds.high)))
+        interval = _change(holds.low), _change(holds.high)
         rows.append((name, f"{given:.6g}", *(f"{part:.4f}" for part in row), *interval))
-        if holds is not None:
-            told = zip(interval, holds.ends, strict=True)
-            ends += [(name, change, words) for change, words in told if words]
+        ends += [(name, change, words) for change, words in zip(interval, holds.ends, strict=True) if words]
     head = ("parameter", "value", *numbers, "holds from", "to")
     parts = [
         f"<p>{_MEANT}</p>",
