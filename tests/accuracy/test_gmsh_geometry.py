@@ -76,6 +76,7 @@ def test_new_nodes_are_on_the_faces_of_a_solid(tmp_path):
     assert off(skin[~flat]).max() < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("ellipse")
 def test_a_deck_names_the_geometry(tmp_path, capsys):
     deck = tmp_path / "deck.toml"

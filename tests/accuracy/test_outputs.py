@@ -24,6 +24,14 @@ def test_an_output_is_as_accurate_as_asked(output, true):
     assert abs(found.value / true - 1.0) <= found.output <= 0.01
 
 
+def test_an_output_that_the_first_mesh_has_not():
+    """One pair touches there, and has no half-width yet."""
+    found = sg.solve(coarse.hertz_line(), accuracy=sg.Accuracy(0.05, of="half-width about (0, 0)")).accuracy
+    assert found.met
+    assert found.levels[0].value is None
+    assert abs(found.value - 1.0) <= 0.05
+
+
 @pytest.mark.slow
 def test_cells_are_refined_by_what_counts_for_the_output():
     """The largest pressure is at the pole: half of the nodes that the pressure of the whole side needs."""

@@ -117,9 +117,9 @@ def test_energy_of_a_flat_punch():
 
 @pytest.mark.slow
 def test_a_ball_in_space():
-    solution = sg.solve(coarse.ball(size=6.0), accuracy=sg.Accuracy(0.2, nodes=4_000))
+    solution = sg.solve(coarse.ball(size=6.0), accuracy=sg.Accuracy(0.2, nodes=2_500))
     assert len(solution.accuracy.levels) > 1
-    assert solution.accuracy.levels[-1].nodes < 4_000
+    assert solution.accuracy.levels[-1].nodes < 2_500
     assert solution.accuracy.levels[-1].energy < 0.6 * solution.accuracy.levels[0].energy
     assert draw_accuracy(PictureData(solution)) is not None
 

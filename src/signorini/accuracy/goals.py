@@ -55,7 +55,7 @@ def with_output(
     return replace(
         found,
         value=value,
-        output=lacks / abs(value) if value else float("inf"),
+        output=lacks / abs(value) if value and np.isfinite(value) else float("inf"),
         weights=sum(shares, np.zeros(len(products))),
     )
 
