@@ -194,5 +194,6 @@ def _face_shapes(count: int, places: Array) -> tuple[Array, Array]:
     for q in range(len(places)):
         shapes(count, places[q, 0], places[q, 1], N[q])
         slopes(count, places[q, 0], places[q, 1], slope)
-        D[q] = slope.T
+        for a in range(count):  # one by one: the assignment of an array takes seconds to compile
+            D[q, a, 0], D[q, a, 1] = slope[0, a], slope[1, a]
     return N, D

@@ -118,6 +118,17 @@ def lack_of(A: Array, q: Array, support: IntArray, size: int, tolerance: float, 
     return lack / scale
 
 
+@part()
+def _list_bits(mask: int, n: int, support: IntArray) -> int:
+    """List which of the first n bits of a mask are set; gives how many are."""
+    size = 0
+    for i in range(n):
+        if (mask >> i) & 1:
+            support[size] = i
+            size += 1
+    return size
+
+
 @kernel(nogil=True)
 def screen(A: Array, q: Array, tolerance: float, lack: Array) -> None:
     """Write into ``lack[mask]`` what a solution with its positive components exactly on the bits of the mask lacks.
@@ -131,9 +142,5 @@ def screen(A: Array, q: Array, tolerance: float, lack: Array) -> None:
     n = len(q)
     block, support, order = np.empty((n, n + 1)), np.empty(n, np.int64), np.empty(n, np.int64)
     for mask in range(1 << n):
-        size = 0
-        for i in range(n):
-            if (mask >> i) & 1:
-                support[size] = i
-                size += 1
+        size = _list_bits(mask, n, support)
         lack[mask] = lack_of(A, q, support, size, tolerance, block, order)
