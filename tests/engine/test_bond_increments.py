@@ -109,6 +109,23 @@ def test_a_cube_is_torn_off_on_smooth_cones():
     assert_allclose(begun.contacts[0].damage, polygon.steps[0].contacts[0].damage, atol=1e-9)
 
 
+def test_a_ring_is_torn_off_with_twist_on_smooth_cones():
+    """Pressed on and turned behind its bond, beside a polygon of many sides."""
+    found = []
+    for facets in (0, 64):
+        ring = sg.Model(
+            sg.rectangle(x=[1.0, 1.5, 2.0], y=[0, 0.5, 1.0]),
+            kind="axisymmetric twist",
+            bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+            supports=[sg.Support("top", u=(0.0, 1.0, 0.3), name="pull")],
+            contacts=[sg.Contact("bottom", sg.Plane((0, 0), (0, 1)), cohesion=GENTLE, friction=0.3, facets=facets)],
+            steps=[sg.Step(scale={"pull": stretch}) for stretch in (0.01, 0.03, 0.0, -0.003)],
+        )
+        found.append(sg.solve(ring) if facets else in_increments(ring))
+    beside(*found, 1e-3)
+    assert np.abs(found[0].steps[-1].contacts[0].traction).max() > 0.5
+
+
 @pytest.mark.parametrize("backend", ["auto", "iterative"])
 def test_a_bar_that_yields_is_drawn_off(backend):
     """It flows from 4 on, its bond softens from 5 on: stretch = strain + layer + opening, by hand."""
