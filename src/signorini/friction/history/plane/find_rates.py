@@ -10,6 +10,7 @@ import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.friction.history.plane.edge_strides import EdgeStrides
 from signorini.friction.history.plane.rate_law import CORNER, RATE, RateLaw
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
@@ -33,6 +34,8 @@ _BOUNDED = 16  # combinations that one linear program is asked to rule out at on
 
 KINKS = 4
 """Most pairs at kinks of their bound whose branches are chosen in all ways before Lemke's method."""
+
+_SETTLES = 3  # steps of Newton's method after which edges may creep; most settle before
 
 NEWTON_STEPS = 200
 """Of one run from a guess of the states; where it does not settle Lemke's method follows."""
@@ -70,8 +73,9 @@ def find_rates(
 
 
 def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray) -> Rates | None:
-    state, seen = guess, set()
-    for _ in range(NEWTON_STEPS):
+    state, seen = guess, set[bytes]()
+    strides: EdgeStrides | None = None
+    for step in range(NEWTON_STEPS):
         seen.add(state.tobytes())
         try:
             rates = responses.rates(state, load)
@@ -80,6 +84,11 @@ def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray) ->
         state = law.proposal(rates)
         if np.array_equal(state, rates.state):
             return rates
+        if step >= _SETTLES:
+            strides = strides or EdgeStrides()
+            lacking = -law.conditions(rates.state, rates.h, rates.r).min(axis=0)
+            ahead = strides.ahead(rates.state, state, lacking)
+            state = state if ahead.tobytes() in seen else ahead
         if state.tobytes() in seen:
             return None
     return None
