@@ -80,6 +80,14 @@ def test_libraries_that_are_not_installed_are_named(monkeypatch, function, libra
         getattr(sg, library)(function)
 
 
+def test_materials_under_loads_that_are_multiplied():
+    """Temperatures are multiplied in the model, other loads beside it: neither twice."""
+    f = sg.prepare(rig()).function(["load.heat", "load.pull", "nu.block"], OUTPUTS[:2])
+    x, step = np.array([1.2, 0.9, 0.25]), 1e-5 * np.eye(3)[2]
+    wanted = (f.values(x + step) - f.values(x - step)) / 2e-5
+    assert f.jacobian(x)[:, 2] == pytest.approx(wanted, rel=1e-6, abs=1e-8)
+
+
 @pytest.fixture(scope="module")
 def small():
     """Few parameters, for checks that go through all of them several times."""
