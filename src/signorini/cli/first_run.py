@@ -21,14 +21,15 @@ from numba import typeof
 from signorini.condense.body_blocks import mirror
 from signorini.linalg import _front_solves, _fronts, _symbolic
 from signorini.linalg._blas import scratch
-from signorini.linalg._graph import Elimination, Graph, Rows
+from signorini.linalg._graph import Elimination, Graph, Rows, both_ways, quotient, subgraph
 from signorini.linalg.plan import RELAX, Fronts
 
 
 def calls() -> list[tuple[Any, tuple[object, ...]]]:
-    """Loops of the second half of every condensed run, the largest first, then from the last one on, and arguments.
+    """Loops of every condensed run in the order of `compile_loops`, with arguments of the types that they have there.
 
-    Arguments are of the types that loops have in a run; two processes at one large loop would waste their time.
+    Graphs, which the run comes to while it compiles the assembly, the largest loop, then from the last one on. The run
+    compiles the order of elimination meanwhile: two processes at one large loop would waste their time.
     """
     small, large, real, square = np.zeros(1, np.int32), np.zeros(1, np.int64), np.zeros(1), np.zeros((1, 1))
     graph, elimination, rows = Graph(small, small), Elimination(small, small), Rows(small, small, real)
@@ -36,6 +37,9 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
     tree = _fronts.Tree(fronts, rows, elimination, small, _fronts.Factors(real, square, real))
     solved = (fronts, real, square, real, scratch())
     return [
+        (both_ways, (graph,)),
+        (quotient, (graph, small, small, small)),
+        (subgraph, (graph, 1)),
         (_fronts.factorise_fronts, (tree, 0, 1, _fronts.stacks(fronts, 1, (1, 1)), False)),
         (_front_solves.backward, solved),
         (_front_solves.forward, solved),
