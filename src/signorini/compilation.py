@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 import gc
+import pickle
 from collections.abc import Callable
 from typing import Any, TypeVar
 
 from numba import njit
 from numba.core import event
+from numba.core.caching import IndexDataCacheFile
 
 _Loop = TypeVar("_Loop", bound=Callable[..., Any])
 
@@ -21,7 +23,29 @@ def kernel(**options: Any) -> Callable[[_Loop], _Loop]:
     options : further ones of Numba's
     """
     decorate: Callable[[_Loop], _Loop] = njit(cache=True, no_cfunc_wrapper=True, **options)  # type: ignore[call-overload]
-    return decorate
+
+    def kept(loop: _Loop) -> _Loop:
+        compiled = decorate(loop)
+        index = getattr(getattr(compiled, "_cache", None), "_cache_file", None)
+        if type(index) is IndexDataCacheFile:
+            index.__class__ = _Index
+        return compiled
+
+    return kept
+
+
+class _Index(IndexDataCacheFile):
+    """What of a loop is on disk: nothing, where it is of a version of the package whose classes are gone.
+
+    Numba reads the index before it asks whether it is of this file, and an update of the package leaves it there.
+    """
+
+    def _load_index(self) -> dict[Any, str]:
+        try:
+            found: dict[Any, str] = super()._load_index()  # type: ignore[no-untyped-call]
+        except (AttributeError, ImportError, EOFError, pickle.UnpicklingError):
+            return {}
+        return found
 
 
 def part(**options: Any) -> Callable[[_Loop], _Loop]:
