@@ -1,13 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compiled loops that an earlier version of the package has left on disk do no harm."""
+"""Compiled loops: what an earlier version left on disk does no harm, and parts are called by compiled loops alone."""
 
+import ast
 import os
 import pickle
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+import signorini
+
+ROOT = Path(signorini.__file__).parent
 
 LOOP = """\
 from typing import NamedTuple
@@ -46,3 +52,33 @@ def test_a_class_that_is_gone_is_compiled_anew(tmp_path):
     assert ran(tmp_path, "Later") == "3.0 0"
     index.write_bytes(pickle.dumps("other") + b"cut off")
     assert ran(tmp_path, "Later") == "3.0 0"
+
+
+def decorators(function: ast.FunctionDef) -> set[str]:
+    calls = [each.func if isinstance(each, ast.Call) else each for each in function.decorator_list]
+    return {each.id for each in calls if isinstance(each, ast.Name)}
+
+
+def functions(tree: ast.AST) -> list[ast.FunctionDef]:
+    return [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+
+
+def test_python_calls_no_part_of_a_kernel():
+    """Parts have no wrapper: a call from Python would end the process without a word."""
+    trees = {".".join(("signorini", *p.relative_to(ROOT).with_suffix("").parts)): p for p in ROOT.rglob("*.py")}
+    parsed = {module: ast.parse(path.read_text()) for module, path in trees.items()}
+    parts = {module: {f.name for f in functions(tree) if "part" in decorators(f)} for module, tree in parsed.items()}
+    assert sum(map(len, parts.values())) > 50
+    wrong = []
+    for module, tree in parsed.items():
+        imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+        known = parts[module] | {n.name for each in imports for n in each.names if n.name in parts.get(each.module, ())}
+        for function in functions(tree):
+            asked = re.findall(r"^ *>>> .*?(?<![\w.])(\w+)\(", ast.get_docstring(function) or "", re.MULTILINE)
+            called = (
+                set()
+                if decorators(function) & {"kernel", "part", "njit", "overload"}
+                else {node.id for node in ast.walk(function) if isinstance(node, ast.Name)}
+            )
+            wrong += [f"{module}.{function.name}: {name}" for name in sorted(known & (called | set(asked)))]
+    assert wrong == []

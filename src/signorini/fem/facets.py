@@ -126,10 +126,8 @@ def shapes(count: int, x: float, y: float, N: Array) -> None:
 
     Examples
     --------
-    >>> N = np.empty(8)
-    >>> shapes(8, 0.0, -1.0, N)
-    >>> N.tolist()
-    [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+    >>> facet_shapes(8, np.array([[0.0, -1.0]]))[0].tolist()
+    [[0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]
     """
     if count == 3 or count == 6:
         z = 1.0 - x - y
