@@ -198,7 +198,9 @@ def test_a_hub_that_flows_as_a_whole_keeps_its_fit(along):
     )
     solution = sg.solve(model)
     found = solution.steps[0].certificate
-    assert max(found.penetration, found.complementarity) < 1e-9
+    assert (
+        max(found.penetration, found.complementarity) <= plastic_solver._FITTING
+    )  # by which pairs and bodies may part
     contact = solution.contact("fit")
     assert contact.pressure @ contact.area / contact.area.sum() == pytest.approx(2.0 * np.log(1.5), rel=2e-3)
 
