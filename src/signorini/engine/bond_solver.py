@@ -15,9 +15,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, IntArray
 from signorini.attempt import MethodRun
-from signorini.condense.condensed import Condensed
 from signorini.engine.bond_company import in_increments
 from signorini.engine.bond_tensions import Tensions
 from signorini.engine.bond_trial import (
@@ -31,15 +30,14 @@ from signorini.engine.bond_trial import (
     Trial,
     sheared_off,
 )
-from signorini.engine.closure_solver import ClosureSolver, CompliantSolver
+from signorini.engine.closure_solver import ClosureSolver
 from signorini.engine.examine import Examined
 from signorini.engine.increment import Increment, IncrementAnswer
+from signorini.engine.law_solver import CompliantSolver, LawSolver
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.errors import told
-from signorini.interface.interface import Interface
 from signorini.law.states import OPEN
 from signorini.outcome import Outcome
-from signorini.solution.scale import Scale
 
 _ROUNDS = 1000
 """States and tensions of bonds that an increment tries at most: a few, and some a bond that opens, are usual."""
@@ -56,7 +54,7 @@ _LEFT = "bonds let go, and of those that are left and contact"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class BondSolver:
+class BondSolver(LawSolver):
     """Increments of contact with bonds, through the one door of `ContactSolver`.
 
     Attributes
@@ -67,69 +65,9 @@ class BondSolver:
     rest : (n,) what it has closed without force, length: of closures of other contacts; empty where there are none
     """
 
-    bodies: CompliantSolver
     labels: IntArray
     normal: Array = field(default_factory=lambda: np.zeros(0))
     rest: Array = field(default_factory=lambda: np.zeros(0))
-
-    @property
-    def name(self) -> str:
-        """Of the back end, for reports."""
-        return self.bodies.name
-
-    @property
-    def active(self) -> BoolArray:
-        """(n,) Pairs that the law is asked of."""
-        return self.bodies.active
-
-    @property
-    def held(self) -> BoolArray:
-        """(n,) Pairs that supports hold on both sides."""
-        return self.bodies.held
-
-    @property
-    def paths(self) -> None:
-        """None: exact paths with bonds are those of `engine.bond_paths`."""
-
-    @property
-    def condensed(self) -> Condensed | None:
-        """The interface as the bodies feel it, without bonds."""
-        return self.bodies.condensed
-
-    @property
-    def elastic(self) -> BondSolver:
-        """Itself."""
-        return self
-
-    def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> BondSolver:
-        """Bodies under another law, see `ContactSolver.under`.
-
-        Parameters
-        ----------
-        interface, scale : friction, gaps and sizes of the data of the moment
-        absent : (n,) pairs that are switched off
-        """
-        return replace(self, bodies=self.bodies.under(interface, scale, absent))
-
-    def moving(self, ways: Array, interface: Interface, scale: Scale) -> BondSolver:
-        """Bodies of which some rest, see `ContactSolver.moving`.
-
-        Parameters
-        ----------
-        ways : (k, m) combinations of the rigid motions
-        interface, scale : as of `under`
-        """
-        return replace(self, bodies=self.bodies.moving(ways, interface, scale))
-
-    def paired(self, elastic: CondensedSolver, interface: Interface) -> BondSolver:  # noqa: ARG002
-        """Bodies with other pairs, see `ContactSolver.paired`.
-
-        Parameters
-        ----------
-        elastic : the same bodies with these pairs
-        interface : not looked at
-        """
-        return replace(self, bodies=elastic)
 
     def closing(self, compliance: Array, rest: Array) -> BondSolver:
         """Bodies whose interface closes otherwise along its normals.

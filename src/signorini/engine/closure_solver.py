@@ -10,20 +10,17 @@ they go no farther than one line a round, and at last one pair at a time, which 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple, Protocol, Self
+from typing import NamedTuple
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import MethodRun
-from signorini.condense.condensed import Condensed
 from signorini.engine.increment import Increment, IncrementAnswer
-from signorini.engine.solver import CondensedSolver, ContactSolver
+from signorini.engine.law_solver import CompliantSolver, LawSolver
 from signorini.errors import told
-from signorini.interface.interface import Interface
 from signorini.law.closure import PairClosure
 from signorini.outcome import Outcome
-from signorini.solution.scale import Scale
 
 _ROUNDS = 200
 """Lines of the pairs that an increment tries at most: four to eight are usual, whatever the number of pairs."""
@@ -73,87 +70,14 @@ class Lines(NamedTuple):
         return self._replace(line=self.closure.beside(self.line, below, above))
 
 
-class CompliantSolver(ContactSolver, Protocol):
-    """Bodies whose pairs have a compliance each, which may be another."""
-
-    def closing(self, compliance: Array, rest: Array) -> Self:
-        """Bodies whose interface closes otherwise along its normals; nothing sparse is factorised again.
-
-        Parameters
-        ----------
-        compliance, rest : (n,) length per force, and what it has closed without force, length
-        """
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
-class ClosureSolver:
+class ClosureSolver(LawSolver):
     """Increments of contact whose pairs close by a law, through the one door of `ContactSolver`.
 
     Attributes
     ----------
     bodies : the same with an interface of one compliance a pair
     """
-
-    bodies: CompliantSolver
-
-    @property
-    def name(self) -> str:
-        """Of the back end, for reports."""
-        return self.bodies.name
-
-    @property
-    def active(self) -> BoolArray:
-        """(n,) Pairs that the law is asked of."""
-        return self.bodies.active
-
-    @property
-    def held(self) -> BoolArray:
-        """(n,) Pairs that supports hold on both sides."""
-        return self.bodies.held
-
-    @property
-    def paths(self) -> None:
-        """None: what follows paths is known on given lines alone, see `engine.closure_paths`."""
-
-    @property
-    def condensed(self) -> Condensed | None:
-        """The interface as the bodies feel it, on whichever lines."""
-        return self.bodies.condensed
-
-    @property
-    def elastic(self) -> ClosureSolver:
-        """Itself."""
-        return self
-
-    def under(self, interface: Interface, scale: Scale, absent: BoolArray) -> ClosureSolver:
-        """Bodies under another law, see `ContactSolver.under`.
-
-        Parameters
-        ----------
-        interface, scale : friction, gaps and sizes of the data of the moment
-        absent : (n,) pairs that are switched off
-        """
-        return replace(self, bodies=self.bodies.under(interface, scale, absent))
-
-    def moving(self, ways: Array, interface: Interface, scale: Scale) -> ClosureSolver:
-        """Bodies of which some rest, see `ContactSolver.moving`.
-
-        Parameters
-        ----------
-        ways : (k, m) combinations of the rigid motions
-        interface, scale : as of `under`
-        """
-        return replace(self, bodies=self.bodies.moving(ways, interface, scale))
-
-    def paired(self, elastic: CondensedSolver, interface: Interface) -> ClosureSolver:  # noqa: ARG002
-        """Bodies with other pairs, see `ContactSolver.paired`.
-
-        Parameters
-        ----------
-        elastic : the same bodies with these pairs
-        interface : not looked at
-        """
-        return replace(self, bodies=elastic)
 
     def on(self, lines: Lines, area: Array) -> CompliantSolver:
         """Bodies with pairs on given lines; ``area`` (n,) forces per pressure."""
