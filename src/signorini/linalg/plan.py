@@ -66,14 +66,12 @@ class Part:
     begin, end : the fronts
     branch : whether they are a subtree, which needs nothing of what is before it
     large : whether it is a single front that is worth sharing
-    stacks : entries that wait in it, on each of two stacks, at the worst time
     """
 
     begin: int
     end: int
     branch: bool
     large: bool
-    stacks: tuple[int, int]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,7 +121,7 @@ def analyse(system: System) -> Plan:
     return Plan(
         order=unknowns(graph, order),
         fronts=Fronts(first, unknown, begin, row, below.astype(np.int32), parent, panel, side),
-        parts=tuple(_parts(parent, work, side, below)),
+        parts=tuple(_parts(parent, work)),
         stacks=stacks,
         widest=int(below.max(initial=0)),
         nnz_factor=int((width * (width + 1) // 2 + width * below).sum()),
@@ -132,13 +130,8 @@ def analyse(system: System) -> Plan:
     )
 
 
-def _parts(parent: Int32Array, work: Array, side: Int32Array, below: IntArray) -> Iterator[Part]:
-    """Part the fronts into branches, large fronts, and what lies between them.
-
-    Parameters
-    ----------
-    parent, work, side, below : of every front
-    """
+def _parts(parent: Int32Array, work: Array) -> Iterator[Part]:
+    """Part the fronts, of which every one has a parent and its work, into branches, large fronts, and the rest."""
     number, shared = len(parent), float(work.sum())
     ends, large, ahead = np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0, np.int64)
     if shared > SHARED_WORK:
@@ -149,15 +142,7 @@ def _parts(parent: Int32Array, work: Array, side: Int32Array, below: IntArray) -
     marks = np.unique(np.concatenate([[0], ahead, ends + 1, large, large + 1, [number]]))
     branches, alone = set(ahead.tolist()), set(large.tolist())
     for begin, end in itertools.pairwise(marks.tolist()):
-        inner = np.maximum(parent[begin:end] - begin, -1).astype(np.int32)
-        inner[inner >= end - begin] = -1
-        yield Part(
-            begin=begin,
-            end=end,
-            branch=begin in branches,
-            large=begin in alone,
-            stacks=_symbolic.stack_peaks(inner, side[begin:end], below[begin:end] ** 2),
-        )
+        yield Part(begin=begin, end=end, branch=begin in branches, large=begin in alone)
 
 
 class Plans:

@@ -6,7 +6,7 @@ number of threads.
 
 References
 ----------
-Geist, Ng (1989), Tree scheduling for parallel sparse Cholesky factorization, Int. J. Parallel Program. 18:291.
+Geist, Ng (1989), Task scheduling for parallel sparse Cholesky factorization, Int. J. Parallel Program. 18:291.
 Buttari, Langou, Kurzak, Dongarra (2009), A class of parallel tiled linear algebra algorithms, Parallel Comput. 35:38.
 """
 
@@ -15,11 +15,13 @@ from __future__ import annotations
 from collections import deque
 from functools import partial
 
-from signorini.linalg import _fronts
+import numpy as np
+
+from signorini.linalg import _fronts, _symbolic
 from signorini.linalg._blas import StoredMatrix, scratch
 from signorini.linalg._fronts import Stacks, Tree
 from signorini.linalg.crew import Crew
-from signorini.linalg.plan import Part, Plan
+from signorini.linalg.plan import Fronts, Part, Plan
 
 TILE = 512  # rows and columns of a large front that one thread takes at a time: smaller ones cost BLAS a tenth more
 
@@ -55,7 +57,7 @@ class _Branches:
 
     def __init__(self, tree: Tree, plan: Plan) -> None:
         self._tree = tree
-        sizes = [part.stacks for part in plan.parts if part.branch]
+        sizes = [_most_waiting(tree.fronts, part) for part in plan.parts if part.branch]
         self._size = max((size[0] for size in sizes), default=0), max((size[1] for size in sizes), default=0)
         self._spare: deque[Stacks] = deque()
 
@@ -83,6 +85,14 @@ class _Branches:
         _fronts.leave_front(self._tree, root, stacks, False)
         branch.top[:] = branch.number[:] = 0
         self._spare.append(branch)
+
+
+def _most_waiting(fronts: Fronts, branch: Part) -> tuple[int, int]:
+    """Entries that wait in a branch on each of its two stacks at the worst time."""
+    inside = slice(branch.begin, branch.end)
+    parent = fronts.parent[inside] - branch.begin
+    parent[-1] = -1  # the root, whose parent is above
+    return _symbolic.stack_peaks(parent, fronts.side[inside], fronts.below[inside].astype(np.int64) ** 2)
 
 
 def _large_front(tree: Tree, t: int, stacks: Stacks, crew: Crew) -> int:
