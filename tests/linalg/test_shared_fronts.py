@@ -2,6 +2,7 @@
 """What threads share of a factorisation: the same to the last bit for any number of them, and right."""
 
 import threading
+from functools import partial
 
 import numpy as np
 import pytest
@@ -9,8 +10,8 @@ import pytest
 from signorini import cores
 from signorini.cli import main
 from signorini.errors import InputError
-from signorini.linalg import NotPositiveDefinite, factorise, plan, shared_fronts
-from signorini.linalg.crew import Crew
+from signorini.linalg import NotPositiveDefinite, factorise, plan, schedule
+from signorini.linalg.crew import Crew, Job
 from tests.helpers.lattices import dense_schur, lattice, together
 
 PROBLEMS = {
@@ -26,7 +27,7 @@ PROBLEMS = {
 def shared(monkeypatch):
     """Small models are shared as large ones are, in tiles as small as they are."""
     monkeypatch.setattr(plan, "SHARED_WORK", 3e3)
-    monkeypatch.setattr(shared_fronts, "TILE", 7)
+    monkeypatch.setattr(schedule, "TILE", 7)
 
 
 @pytest.mark.usefixtures("shared")
@@ -41,7 +42,7 @@ def test_every_number_of_threads_gives_the_same_bits(name):
         found.append((factor.factor, factor.schur(), factor.reduce(load).load))
     parts = factor.plan.parts
     assert sum(part.branch for part in parts) > 4
-    assert sum(part.large for part in parts) > 2
+    assert sum(not part.branch for part in parts) > 2
     for other in found[1:]:
         assert all(np.array_equal(one, two) for one, two in zip(found[0], other, strict=True))
     S = dense_schur(p.K, p.interface)
@@ -55,7 +56,7 @@ def test_parts_hold_every_front_once():
     ends = [part.begin for part in parts[1:]] + [parts[-1].end]
     assert [part.end for part in parts] == ends
     assert parts[0].begin == 0
-    assert all(part.end - part.begin == 1 for part in parts if part.large)
+    assert all(part.end - part.begin == 1 for part in parts if not part.branch)
 
 
 @pytest.mark.usefixtures("shared")
@@ -73,14 +74,36 @@ def test_an_indefinite_matrix_names_the_same_unknown(number, place):
     assert threading.active_count() == 1
 
 
-def test_what_runs_ahead_stays_near():
-    """No more is made ahead than twice the threads, so that what waits does not fill the memory."""
-    begun, most = [], 0
-    with Crew(2) as crew:
-        for i, _ in enumerate(crew.ahead((lambda i=i: begun.append(i)) for i in range(40))):
-            most = max(most, len(begun) - i)
-    assert sorted(begun) == list(range(40))
-    assert most <= 4
+@pytest.mark.parametrize("number", [1, 2, 5])
+def test_jobs_wait_for_what_they_need_and_the_first_failure_counts(number):
+    """Of jobs that fail the first one is told, whichever thread comes to it first; what needs it is not begun."""
+    slow, done = threading.Event(), []
+
+    def fail(name: str) -> None:
+        raise ValueError(name)
+
+    jobs = [
+        Job(lambda: slow.wait(0.05)),
+        Job(lambda: fail("second"), needs=(0,)),
+        Job(lambda: fail("third")),
+        Job(lambda: done.append("behind"), needs=(1,)),
+    ]
+    with Crew(number) as crew, pytest.raises(ValueError, match="second"):
+        crew.finish(jobs)
+    assert not done
+    with Crew(number) as crew:
+        crew.finish([Job(partial(done.append, i), needs=(i - 1,) if i else ()) for i in range(20)])
+    assert done == list(range(20))
+
+
+@pytest.mark.usefixtures("shared")
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_tasks_hold_all_the_work_and_need_earlier_ones(name):
+    p = PROBLEMS[name]
+    made = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal").plan
+    found = schedule.tasks(made)
+    assert all(needed < number for number, task in enumerate(found) for needed in task.needs)
+    assert sum(task.work for task in found) == pytest.approx(made.flops, rel=1e-12)
 
 
 @pytest.mark.parametrize("number", [0, -1, 1.5, True, "2"])

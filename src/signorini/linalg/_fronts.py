@@ -16,10 +16,8 @@ import numpy as np
 from signorini.arrays import Array, Int32Array, IntArray
 from signorini.compilation import kernel, part
 from signorini.linalg._blas import (
-    SECOND_TRANSPOSED,
     Scratch,
     StoredMatrix,
-    gemm,
     potrf,
     scratch,
     syrk,
@@ -116,7 +114,7 @@ def factorise_fronts(tree: Tree, begin: int, end: int, stacks: Stacks, alone: bo
     tree : of which they are fronts
     begin, end : with nothing between them whose children are elsewhere than on the stacks
     stacks : what is left waits on
-    alone : whether they are a subtree by itself, of whose root all that is left waits, too
+    alone : whether they are subtrees by themselves, of whose roots all that is left waits, too
     """
     fronts, s = tree.fronts, stacks.s
     for t in range(begin, end):
@@ -137,21 +135,12 @@ def factorise_fronts(tree: Tree, begin: int, end: int, stacks: Stacks, alone: bo
     return -1
 
 
-@kernel(nogil=True)
-def gather_front(tree: Tree, t: int, stacks: Stacks) -> bool:
-    """Gather front t from K and what its children left; give whether it has no children.
-
-    Parameters
-    ----------
-    tree, t : the front
-    stacks : without what its children left, afterwards; what it leaves, begun, lies on top
-    """
-    return _gather(tree, t, stacks)
-
-
 @part()
 def _gather(tree: Tree, t: int, stacks: Stacks) -> bool:
-    """See `gather_front`, which Python calls."""
+    """Gather front t from K and what its children left; give whether it has no children.
+
+    What its children left goes from the stacks; what it leaves, begun, lies on top.
+    """
     fronts, (factor, _, diagonal) = tree.fronts, tree.made
     local, target, waiting = stacks.local, stacks.target, stacks.waiting
     a, k, r = sizes(fronts, t)
@@ -184,22 +173,9 @@ def _gather(tree: Tree, t: int, stacks: Stacks) -> bool:
     return leaf
 
 
-@kernel(nogil=True)
-def leave_front(tree: Tree, t: int, stacks: Stacks, alone: bool) -> None:
-    """Leave what is left of front t on its stack, or add it to the condensed matrix.
-
-    Parameters
-    ----------
-    tree, t : the front
-    stacks : what is left lies on top of
-    alone : whether it waits though it has no parent
-    """
-    _leave(tree, t, stacks, alone)
-
-
 @part()
 def _leave(tree: Tree, t: int, stacks: Stacks, alone: bool) -> None:
-    """See `leave_front`, which Python calls."""
+    """Leave what is left of front t on its stack, or add it to the condensed matrix unless it stands alone."""
     fronts = tree.fronts
     own, (_, _, r) = fronts.side[t], sizes(fronts, t)
     if fronts.parent[t] == -1 and not alone:
@@ -208,62 +184,11 @@ def _leave(tree: Tree, t: int, stacks: Stacks, alone: bool) -> None:
         for u in range(len(tree.slot)):
             stacks.local[inside + u] = tree.slot[u]
         _list_rows(fronts, t, stacks.local, stacks.target)
-        _add_condensed(left, stacks.target, r, tree.made.condensed)
+        add_condensed(left, stacks.target, r, tree.made.condensed)
     else:
         stacks.top[own] += r * r
         stacks.waiting[own, stacks.number[own]] = t
         stacks.number[own] += 1
-
-
-@kernel(nogil=True)
-def eliminate_tile(block: tuple[int, int], rows: tuple[int, int], columns: StoredMatrix, s: Scratch) -> int:
-    """Eliminate columns of a front from a tile of its rows, left to right; give 0, or the 1-based column that failed.
-
-    The tile on the diagonal is factorised; it has to be before the others.
-
-    Parameters
-    ----------
-    block : first column, and how many
-    rows : first row, and how many
-    columns : of the front
-    s : of the thread
-    """
-    (first, width), (begin, height) = block, rows
-    own = StoredMatrix(columns.begin + 8 * (begin + first * columns.stride), columns.stride)
-    pivot = StoredMatrix(columns.begin + 8 * first * (columns.stride + 1), columns.stride)
-    if first > 0:
-        done = StoredMatrix(columns.begin + 8 * begin, columns.stride)
-        beside = StoredMatrix(columns.begin + 8 * first, columns.stride)
-        gemm(SECOND_TRANSPOSED, height, width, first, done, beside, s.one, own, s)
-    if begin == first:
-        return potrf(width, pivot, s)
-    trsm(s.right, s.transposed, height, width, pivot, own, s)
-    return 0
-
-
-@kernel(nogil=True)
-def leave_tile(
-    tile: tuple[int, int], k: int, columns: StoredMatrix, keep: bool, left: StoredMatrix, s: Scratch
-) -> None:
-    """Form some columns of what is left of a front, (r, r).
-
-    Parameters
-    ----------
-    tile : first column, and how many
-    k, columns : of the front, eliminated
-    keep : whether `left` counts
-    left : overwritten
-    s : of the thread
-    """
-    first, width = tile
-    r = columns.stride - k
-    own = StoredMatrix(columns.begin + 8 * (k + first), columns.stride)
-    share = s.one if keep else s.zero
-    syrk(width, k, own, share, StoredMatrix(left.begin + 8 * first * (r + 1), r), s)
-    if first + width < r:
-        below = StoredMatrix(own.begin + 8 * width, columns.stride)
-        rest = StoredMatrix(left.begin + 8 * (first * (r + 1) + width), r)
-        gemm(SECOND_TRANSPOSED, r - first - width, width, k, below, own, share, rest, s)
 
 
 @part()
@@ -347,8 +272,14 @@ def _extend_add(
 
 
 @part()
-def _add_condensed(work: Array, target: Int32Array, r: int, condensed: Array) -> None:
-    """Add a lower triangle, (r, r) by columns, to the upper one of the condensed matrix: along its rows."""
+def add_condensed(work: Array, target: Int32Array, r: int, condensed: Array) -> None:
+    """Add a lower triangle, (r, r) by columns, to the upper one of the condensed matrix: along its rows.
+
+    Parameters
+    ----------
+    work, r : the triangle
+    target : row of every row of it in the condensed matrix
+    """
     for c in range(r):
         v = target[c]
         for i in range(c, r):

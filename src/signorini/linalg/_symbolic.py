@@ -237,18 +237,16 @@ def stack_peaks(parent: Int32Array, side: Int32Array, size: IntArray) -> tuple[i
 
 
 @kernel()
-def subtrees(parent: Int32Array, work: Array) -> tuple[Int32Array, Array]:
-    """Give the first front and the work of the subtree below every front, its own included.
+def subtree_sums(parent: Int32Array, work: Array) -> Array:
+    """Give the work of the subtree below every front, its own included.
 
     Parameters
     ----------
     parent : of a postordered forest
     work : (s,) of every front
     """
-    first, total = np.arange(len(parent)).astype(np.int32), work.copy()
+    total = work.copy()
     for t in range(len(parent)):
-        up = parent[t]
-        if up != -1:
-            first[up] = min(first[up], first[t])
-            total[up] += total[t]
-    return first, total
+        if parent[t] != -1:
+            total[parent[t]] += total[t]
+    return total

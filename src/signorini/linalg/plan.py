@@ -6,7 +6,6 @@ Unknowns of a node stay together, so that trees and fronts are those of the node
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -20,14 +19,13 @@ from signorini.linalg.ordering import nested_dissection, unknowns
 from signorini.linalg.system import NodeGraph, System, node_graph
 
 SHARED_WORK = 1e9
-"""Multiplications and additions from which threads share a factorisation, and then a front: tens of milliseconds of one
-thread."""
+"""Multiplications and additions from which threads share a factorisation: tens of milliseconds of one thread."""
 
 BRANCHES = 32
 """Threads take subtrees of at most this part of all work: enough for some sixteen threads."""
 
 SMALLEST_BRANCH = 1e-3
-"""Part of all work of a subtree below which handing it to a thread is not worth it."""
+"""Part of all work of subtrees below which handing them to a thread is not worth it: they are joined by the next."""
 
 RELAX = (8, 0.8, 24, 0.3, 0.05)
 """When supernodes are joined though zeros are stored for it; see `_symbolic.supernodes`. Found by measurement."""
@@ -59,19 +57,19 @@ class Fronts(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Part:
-    """Fronts that follow each other, which one thread eliminates, or all share: of a large front by itself.
+    """Fronts that follow each other: subtrees that one thread eliminates, or one front that threads share.
 
     Attributes
     ----------
     begin, end : the fronts
-    branch : whether they are a subtree, which needs nothing of what is before it
-    large : whether it is a single front that is worth sharing
+    branch : whether they are subtrees, which need nothing of what is before them
+    work : multiplications and additions
     """
 
     begin: int
     end: int
     branch: bool
-    large: bool
+    work: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,18 +129,24 @@ def analyse(system: System) -> Plan:
 
 
 def _parts(parent: Int32Array, work: Array) -> Iterator[Part]:
-    """Part the fronts, of which every one has a parent and its work, into branches, large fronts, and the rest."""
-    number, shared = len(parent), float(work.sum())
-    ends, large, ahead = np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0, np.int64)
-    if shared > SHARED_WORK:
-        first, total = _symbolic.subtrees(parent, work)
-        light = total <= shared / BRANCHES
-        ends = np.flatnonzero(light & ((parent == -1) | ~light[parent]) & (total > SMALLEST_BRANCH * shared))
-        ahead, large = first[ends].astype(np.int64), np.flatnonzero(~light & (work > SHARED_WORK))
-    marks = np.unique(np.concatenate([[0], ahead, ends + 1, large, large + 1, [number]]))
-    branches, alone = set(ahead.tolist()), set(large.tolist())
-    for begin, end in itertools.pairwise(marks.tolist()):
-        yield Part(begin=begin, end=end, branch=begin in branches, large=begin in alone)
+    """Part the fronts, of which every one has a parent and its work, into branches and the fronts above them."""
+    number, whole = len(parent), float(work.sum())
+    if whole <= SHARED_WORK:
+        yield Part(begin=0, end=number, branch=True, work=whole)
+        return
+    total = _symbolic.subtree_sums(parent, work)
+    light = total <= whole / BRANCHES
+    begin, gathered = 0, 0.0
+    for t in np.flatnonzero(~light | (parent == -1) | ~light[parent]).tolist():
+        gathered += float(total[t]) if light[t] else 0.0
+        if light[t] and gathered <= SMALLEST_BRANCH * whole and t + 1 < number:
+            continue
+        end = t + 1 if light[t] else t
+        if begin < end:
+            yield Part(begin=begin, end=end, branch=True, work=gathered)
+        if not light[t]:
+            yield Part(begin=t, end=t + 1, branch=False, work=float(work[t]))
+        begin, gathered = t + 1, 0.0
 
 
 class Plans:
