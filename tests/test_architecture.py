@@ -41,6 +41,7 @@ BASE = {
     "settings",
     "short",
     "sources",
+    "turn",
     "_version",
 }
 CORE = {

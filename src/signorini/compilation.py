@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How loops are compiled: what Python calls, what only compiled loops call, and without searches for garbage."""
+"""How loops are compiled: what Python calls, what only compiled loops call; once, and without searches for garbage."""
 
 from __future__ import annotations
 
 import gc
 import pickle
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any, TypeVar
 
 from numba import njit
 from numba.core import event
 from numba.core.caching import IndexDataCacheFile
+
+from signorini.turn import Turn
 
 _Loop = TypeVar("_Loop", bound=Callable[..., Any])
 
@@ -18,11 +21,14 @@ _Loop = TypeVar("_Loop", bound=Callable[..., Any])
 def kernel(**options: Any) -> Callable[[_Loop], _Loop]:
     """Compile what Python calls; the first run leaves it on disk. A wrapper for callers in C would be for nobody.
 
+    Divided by zero numbers become inf and nan, as NumPy's do: branches to an exception take a sixth longer to compile.
+
     Parameters
     ----------
     options : further ones of Numba's
     """
-    decorate: Callable[[_Loop], _Loop] = njit(cache=True, no_cfunc_wrapper=True, **options)  # type: ignore[call-overload]
+    made = njit(cache=True, no_cfunc_wrapper=True, error_model="numpy", **options)  # type: ignore[call-overload]
+    decorate: Callable[[_Loop], _Loop] = made
 
     def kept(loop: _Loop) -> _Loop:
         compiled = decorate(loop)
@@ -37,7 +43,8 @@ def kernel(**options: Any) -> Callable[[_Loop], _Loop]:
 class _Index(IndexDataCacheFile):
     """What of a loop is on disk: nothing, where it is of a version of the package whose classes are gone.
 
-    Numba reads the index before it asks whether it is of this file, and an update of the package leaves it there.
+    Numba reads the index before it asks whether it is of this file, and an update of the package leaves it there. Of
+    processes that need a loop at once one compiles it, and the others wait for what it leaves.
     """
 
     def _load_index(self) -> dict[Any, str]:
@@ -47,15 +54,58 @@ class _Index(IndexDataCacheFile):
             return {}
         return found
 
+    def load(self, key: Any) -> Any:
+        """What is on disk; None: it is this process's turn to compile.
+
+        Parameters
+        ----------
+        key : Numba's, of the types and the machine
+        """
+        found = super().load(key)  # type: ignore[no-untyped-call]
+        if found is None and self.turn.waited():
+            found = super().load(key)  # type: ignore[no-untyped-call]
+            if found is not None:
+                self.turn.end()
+        return found
+
+    def save(self, key: Any, data: Any) -> None:
+        """Leave a compiled loop on disk, for those that wait for it too.
+
+        Parameters
+        ----------
+        key, data : Numba's
+        """
+        super().save(key, data)  # type: ignore[no-untyped-call]
+        self.turn.end()
+
+    @cached_property
+    def turn(self) -> Turn:
+        """Of processes that compile the loop."""
+        return Turn(f"{self._index_path}.turn")
+
+
+def compile_aside(loop: Any, types: tuple[Any, ...]) -> None:
+    """Compile a loop for somebody else, unless another process is at it.
+
+    Parameters
+    ----------
+    loop : a kernel
+    types : of its arguments, Numba's
+    """
+    index = getattr(getattr(loop, "_cache", None), "_cache_file", None)
+    if not isinstance(index, _Index) or index.turn.free():
+        loop.compile(types)
+
 
 def part(**options: Any) -> Callable[[_Loop], _Loop]:
-    """Compile what kernels alone call, which hold a copy of it on disk: without any wrapper.
+    """Compile what kernels alone call, which hold a copy of it on disk: without any wrapper, otherwise as they are.
 
     Parameters
     ----------
     options : further ones of Numba's
     """
-    decorate: Callable[[_Loop], _Loop] = njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)  # type: ignore[call-overload]
+    wrappers = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    decorate: Callable[[_Loop], _Loop] = njit(error_model="numpy", **wrappers, **options)  # type: ignore[call-overload]
     return decorate
 
 

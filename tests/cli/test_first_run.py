@@ -2,9 +2,11 @@
 """The process that compiles beside the first run of an installation."""
 
 import gc
+import importlib
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -55,6 +57,46 @@ def test_another_process_ends_with_the_run_and_is_not_begun_on_one_core(cores, m
         raise ZeroDivisionError
     assert len(begun) == cores - 1
     assert all(process.returncode not in (None, 0) for process in begun)
+
+
+LOOP = """
+import sys
+from numba import int64
+from signorini.compilation import compile_aside, kernel
+
+@kernel()
+def double(k):
+    return 2 * k
+
+if __name__ == "__main__":
+    print("begun", flush=True)
+    {call}
+    print(sum(double.stats.cache_hits.values()), sum(double.stats.cache_misses.values()))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("call", "waits", "found"), [("double(1)", True, "1 0\n"), ("compile_aside(double, (int64,))", False, "0 0\n")]
+)
+def test_a_loop_that_another_process_compiles_is_waited_for_or_left_to_it(call, waits, found, tmp_path, monkeypatch):
+    pytest.importorskip("fcntl")
+    name = f"loops_{waits}"
+    file = tmp_path / f"{name}.py"
+    file.write_text(LOOP.format(call=call))
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    double = importlib.import_module(name).double
+    assert double._cache._cache_file.load("nothing of this name") is None  # so it is this process's turn
+    with subprocess.Popen([sys.executable, file], stdout=subprocess.PIPE, text=True) as other:
+        assert other.stdout.readline() == "begun\n"
+        if waits:
+            time.sleep(0.2)
+            assert other.poll() is None
+            double(2)
+        assert other.communicate()[0] == found
+    assert double(2) == 4
+    assert not list(tmp_path.rglob("*.turn"))
 
 
 @pytest.mark.parametrize("enabled", [True, False])

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A second process beside the first run after an installation, which compiles what the run comes to last.
 
-The run takes about as long for what it comes to first: the assembly and the order of elimination. From there on it
-finds on disk what the other process has compiled, the largest loop first. Neither waits: where the second process is
-late or missing, the run compiles itself.
+The run compiles the loops in the order in which it comes to them, the other process from the last one on, until they
+meet: whoever has begun with a loop has it for both (`compilation`), and where the other process is missing, the run
+compiles all.
 """
 
 from __future__ import annotations
@@ -18,7 +18,10 @@ from typing import Any
 import numpy as np
 from numba import typeof
 
+from signorini.compilation import compile_aside
+from signorini.condense import kept
 from signorini.condense.body_blocks import mirror
+from signorini.fem import _kernels
 from signorini.linalg import _front_solves, _fronts, _symbolic
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination, Graph, Rows, both_ways, quotient, subgraph
@@ -26,27 +29,28 @@ from signorini.linalg.plan import RELAX, Fronts
 
 
 def calls() -> list[tuple[Any, tuple[object, ...]]]:
-    """Loops of every condensed run in the order of `compile_loops`, with arguments of the types that they have there.
-
-    Graphs, which the run comes to while it compiles the assembly, the largest loop, then from the last one on. The run
-    compiles the order of elimination meanwhile: two processes at one large loop would waste their time.
-    """
+    """Loops of every condensed run of plain bodies in the plane, the last first, with arguments of their types."""
     small, large, real, square = np.zeros(1, np.int32), np.zeros(1, np.int64), np.zeros(1), np.zeros((1, 1))
     graph, elimination, rows = Graph(small, small), Elimination(small, small), Rows(small, small, real)
     fronts = Fronts(small, small, large, small, small, small, large, small)
     tree = _fronts.Tree(fronts, rows, elimination, small, _fronts.Factors(real, square, real))
     solved = (fronts, real, square, real, scratch())
+    cells = _kernels.Cells(
+        np.zeros((1, 1), np.int32), np.zeros((1, 1, 1)), real, large, square, square, np.zeros((1, 1, 1, 1)), square
+    )
+    points = np.zeros((1, 2))
+    points.flags.writeable = False  # as meshes keep them
+    laws = _kernels.Laws(np.zeros((1, 3), np.uint32), square, real, 2)
     return [
-        (both_ways, (graph,)),
-        (quotient, (graph, small, small, small)),
-        (subgraph, (graph, 1)),
-        (_fronts.factorise_fronts, (tree, 0, 1, _fronts.stacks(fronts, 1, (1, 1)), False)),
+        (kept._felt, (small, small, real, small, small, real, 1)),
+        (kept._block, (small, small, real, large, large)),
+        (mirror, (square,)),
+        (mirror, (np.zeros((2, 2), order="F"),)),
+        (_fronts.add_interface, (rows, elimination, small, square)),
         (_front_solves.backward, solved),
         (_front_solves.forward, solved),
-        (mirror, (np.zeros((2, 2), order="F"),)),
-        (mirror, (square,)),
         (_front_solves.pivots, (fronts, real)),
-        (_fronts.add_interface, (rows, elimination, small, square)),
+        (_fronts.factorise_fronts, (tree, 0, 1, _fronts.stacks(fronts, 1, (1, 1)), False)),
         (_symbolic.stack_peaks, (small, small, large)),
         (_symbolic.sides, (small,)),
         (_symbolic.front_rows, (graph, elimination, small, small)),
@@ -54,13 +58,19 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
         (_symbolic.column_counts, (graph, elimination, small)),
         (_symbolic.postorder, (small,)),
         (_symbolic.elimination_tree, (graph, elimination, 1)),
+        (subgraph, (graph, 1)),
+        (both_ways, (graph,)),
+        (quotient, (graph, small, small, small)),
+        (_kernels.add_block, (points, cells, laws, _kernels.SparsityPattern(large, small, real))),
+        (_kernels.unknown_pattern, (large, small, 2)),
+        (_kernels.node_pattern, (large, small, 1)),
     ]
 
 
 def compile_loops() -> None:
-    """Compile the loops; what is on disk is left as it is."""
+    """Compile the loops that nobody else compiles; what is on disk is left as it is."""
     for loop, arguments in calls():
-        loop.compile(tuple(typeof(argument) for argument in arguments))  # type: ignore[no-untyped-call]
+        compile_aside(loop, tuple(typeof(argument) for argument in arguments))  # type: ignore[no-untyped-call]
 
 
 @contextmanager

@@ -79,7 +79,8 @@ def interface_stiffness(
     interface, pairs : all pairs, and the numbers (a,) of the active ones
     stiffness : of the size of the data, where both sides are rigid
     """
-    felt, gives = _felt(B_c.indptr, B_c.indices, B_c.data, K_c.indptr, K_c.indices, K_c.data, len(pairs))
+    begin, column = (places.astype(np.int32, copy=False) for places in (B_c.indptr, B_c.indices))  # one type of them
+    felt, gives = _felt(begin, column, B_c.data, K_c.indptr, K_c.indices, K_c.data, len(pairs))
     felt = np.minimum(felt, np.divide(4.0, gives, out=np.full_like(gives, np.inf), where=gives > 0.0))
     felt = with_supple(felt, interface, pairs)
     felt[felt == 0.0] = stiffness  # both sides are rigid, and nothing gives way

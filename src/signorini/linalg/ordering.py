@@ -13,12 +13,17 @@ from signorini.linalg._dissection import dissect
 from signorini.linalg._graph import subgraph
 from signorini.linalg.system import NodeGraph
 
+ORDERED_BY_METIS = 4096
+"""Nodes up to which METIS orders though their places are known: at most ten milliseconds more, and by size alone, so
+that an answer has the same digits whatever has been compiled before."""
+
 
 def nested_dissection(graph: NodeGraph) -> Int32Array:
     """Order the interior nodes so that few entries fill in.
 
     Where the places of the nodes are known, by cuts across them (`_dissection`), which on meshes is several times
-    faster than METIS at about the same fill (`benchmarks/ordering.py`); otherwise by METIS.
+    faster than METIS at about the same fill (`benchmarks/ordering.py`); otherwise by METIS, and small graphs too: it
+    takes milliseconds, and a first run need not compile the cuts.
 
     Returns
     -------
@@ -33,7 +38,7 @@ def nested_dissection(graph: NodeGraph) -> Int32Array:
     inside = subgraph(graph.edges, graph.interior)
     if len(inside.indices) == 0:
         return np.arange(graph.interior, dtype=np.int32)
-    if graph.points is not None:
+    if graph.points is not None and graph.interior > ORDERED_BY_METIS:
         axes, diagonals = _directions(graph.points[: graph.interior])
         along = np.argsort(np.concatenate([axes, diagonals]), axis=1, kind="stable").astype(np.int32)
         return dissect(inside, along, len(axes))

@@ -147,7 +147,7 @@ def stress_in_tables(
     return low + slope * (p - strain[body, i]), slope
 
 
-@kernel(error_model="numpy")
+@kernel()
 def yield_stresses(laws: YieldLaws, body: IntArray, p: Array, level: Array) -> Array:
     """(p,) Yield stress at points.
 

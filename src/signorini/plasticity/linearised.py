@@ -51,7 +51,7 @@ def taken(laws: YieldLaws, body: int, point: Points, i: int, dual: Array, left: 
         M[r, 2], M[2, r] = 0.0, 0.0
 
 
-@kernel(error_model="numpy")
+@kernel()
 def dual_stress(
     laws: YieldLaws, body: IntArray, level: Array, old: Points, model: Points, dual: Array, new: Points, out: Array
 ) -> None:

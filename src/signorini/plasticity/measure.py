@@ -225,7 +225,7 @@ def _relative_at(strain: Array, plastic: Array, back: Array, shear: float, i: in
     return float(np.sqrt(square))
 
 
-@kernel(error_model="numpy")
+@kernel()
 def _relative(strain: Array, plastic: Array, back: Array, shear: Array, body: IntArray) -> Array:
     """(p, n) Relative stresses.
 
@@ -241,7 +241,7 @@ def _relative(strain: Array, plastic: Array, back: Array, shear: Array, body: In
     return out
 
 
-@kernel(error_model="numpy")
+@kernel()
 def _sizes(strain: Array, plastic: Array, back: Array, shear: Array, body: IntArray) -> Array:
     """(p,) Sizes of the relative stresses, see `_relative`."""
     room, out = np.empty(strain.shape[1]), np.empty(len(body))
@@ -250,7 +250,7 @@ def _sizes(strain: Array, plastic: Array, back: Array, shear: Array, body: IntAr
     return out
 
 
-@kernel(error_model="numpy")
+@kernel()
 def _lacks(
     laws: YieldLaws, body: IntArray, relative: Array, limit: Array, old: Flowed, new: Flowed
 ) -> tuple[float, float, float, float]:

@@ -172,7 +172,7 @@ class _Cell(NamedTuple):
     stiffness: Array
 
 
-@part(error_model="numpy")
+@part()
 def _imbalance(
     laws: YieldLaws, heat: Heat, cell: _Cell, old: Points, new: Points, a: Array, h: Array, room: Array
 ) -> None:
@@ -217,7 +217,7 @@ def _find_loss(laws: YieldLaws, cell: _Cell, new: Points, M: Array, loss: Array)
                     loss[y, x] += cell.weights[q] * cell.G[q, r, y] * value
 
 
-@kernel(error_model="numpy")
+@kernel()
 def settle(
     laws: YieldLaws,
     body: IntArray,

@@ -148,7 +148,7 @@ def _return(
             new.back[i, k, c] = theta * (old.back[i, k, c] + step)
 
 
-@part(error_model="numpy")
+@part()
 def _stay(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Points, stays: BoolArray) -> None:
     """Which points stay elastic, and their states: most of them, so without a call for each."""
     strain, plastic, back = new.strain, old.plastic, old.back
@@ -169,7 +169,7 @@ def _stay(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Point
         stays[i] = np.sqrt(norm) <= ROOT23 * stress * (1.0 + _RETURN_TOL)
 
 
-@part(error_model="numpy")
+@part()
 def _without_back_stresses(laws: YieldLaws, body: IntArray, level: Array, old: Points, new: Points) -> None:
     """The states of all points where yield stresses alone harden: exact row by row, without a call for each point."""
     strain, plastic, direction, slack = new.strain, new.plastic, new.direction, new.slack
@@ -235,14 +235,13 @@ def respond_at(
     i : the point
     trial, turn : (n,) room
     """
-    if not laws.thin:
-        _return(laws, body, level, old, i, new, trial, turn)
-        return
     G2, K, e = 2.0 * laws.shear[body], laws.bulk[body], new.strain[i]
     size = abs(e[0]) + abs(e[1]) + abs(e[3]) + abs(swelling) + abs(old.plastic[i, 2])
     low, high = -np.inf, np.inf
     for _ in range(_ACROSS_ROUNDS):
-        _return(laws, body, level, old, i, new, trial, turn)
+        _return(laws, body, level, old, i, new, trial, turn)  # in one place: every place holds a copy of it
+        if not laws.thin:
+            return
         volume = e[0] + e[1] + e[2]
         across = K * (volume - swelling) + G2 * (e[2] - volume / 3.0 - new.plastic[i, 2])
         if abs(across) <= _ACROSS_TOL * (K + G2) * size:
@@ -259,7 +258,7 @@ def respond_at(
         e[2] = following
 
 
-@kernel(error_model="numpy")
+@kernel()
 def respond(laws: YieldLaws, body: IntArray, heat: Heat, old: Points, new: Points) -> None:
     """The state of every point at the strains of the new one, from the old state; plane stress finds the strain across.
 

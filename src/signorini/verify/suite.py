@@ -149,6 +149,9 @@ SLOW: tuple[Case, ...] = (
     wear.worn_block,
 )
 
+COMPILE_MUCH: tuple[Case, ...] = (plasticity.hills_tube, space.ball_on_block)
+"""Where nothing is compiled they go ahead: each has loops that take seconds, others of its kind would wait for them."""
+
 
 def verification_rows(
     slow: bool = False,
@@ -163,7 +166,7 @@ def verification_rows(
     slow : whether all
     begin : told before every case what it is, how many are done and how many there are
     processes : that share the cases; a row comes once its case is done where there are several
-    beside : what one of them does while the first case runs
+    beside : what one of them does while the first case runs, where nothing is compiled yet
 
     Yields
     ------
@@ -187,12 +190,15 @@ def rows_of(
         yield from _in_turn(cases, [partial(_rows, case) for case in cases], begin)
         return
     with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-        futures = [pool.submit(_all_rows, cases[0])]
+        futures = {0: pool.submit(_all_rows, cases[0])}
+        ahead: tuple[Case, ...] = ()
         if beside is not None:
             pool.submit(beside)
-        futures += [pool.submit(_all_rows, case) for case in cases[1:]]
+            ahead = COMPILE_MUCH
+        for k in sorted(range(1, len(cases)), key=lambda k: cases[k] not in ahead):
+            futures[k] = pool.submit(_all_rows, cases[k])
         try:
-            yield from _in_turn(cases, [future.result for future in futures], begin)
+            yield from _in_turn(cases, [futures[k].result for k in range(len(cases))], begin)
         finally:
             pool.shutdown(cancel_futures=True)
 
