@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from signorini.cores import threads
     from signorini.deck import read
     from signorini.derivative.wrappers import jax, torch
+    from signorini.distributed.ranks import ranks
     from signorini.engine import paper
     from signorini.errors import InputError, Interrupted, SignoriniError, SolveFailed
     from signorini.inspection.check import check
@@ -137,6 +138,7 @@ __all__ = [
     "prepare",
     "pressure",
     "quarter_disk",
+    "ranks",
     "read",
     "read_mesh",
     "read_profile",
@@ -155,6 +157,7 @@ _HOMES = {
     "signorini.api": ("load", "solve"),
     "signorini.cores": ("threads",),
     "signorini.deck": ("read",),
+    "signorini.distributed.ranks": ("ranks",),
     "signorini.model.outputs": (
         "displacement",
         "dissipation",

@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from signorini.cli.exit_codes import DONE, FAILED, INTERRUPTED, NO_SOLUTION, WRONG_INPUT
 from signorini.cli.parser import make_parser
 from signorini.cores import threads
+from signorini.distributed.ranks import PETSC, whole_team
 from signorini.errors import InputError, SolveFailed
 
 _MEMORY_ADVICE = "expected a coarser mesh, --backend iterative, or more memory"
@@ -41,7 +42,34 @@ def main(arguments: Sequence[str] | None = None) -> int:
     -------
     The exit code; wrong options leave by ``SystemExit(2)``, as is usual
     """
-    options = make_parser().parse_args(arguments)
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    if any(word.startswith("--b") and (after == PETSC or word.endswith(f"={PETSC}")) for word, after in _pairs(given)):
+        return _on_ranks(given)
+    return _run(given)
+
+
+def _pairs(given: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Every argument with the one that follows it."""
+    return zip(given, [*given[1:], ""], strict=False)
+
+
+def _on_ranks(given: Sequence[str]) -> int:
+    """Run a command on the first of all ranks, which the others serve; all have its exit code, and it alone speaks."""
+    try:
+        with whole_team() as team:
+            if team.first:
+                try:
+                    team.code = _run(given)
+                except SystemExit as wrong:
+                    team.code = int(wrong.code or 0)
+        return team.code
+    except InputError as error:
+        return _say(f"signorini: {error}", WRONG_INPUT)
+
+
+def _run(given: Sequence[str]) -> int:
+    """Run a command; see `main`."""
+    options = make_parser().parse_args(given)
     try:
         with _stoppable(), threads(getattr(options, "threads", None)):
             (home,) = (module for module, commands in _COMMANDS.items() if options.command in commands)

@@ -22,6 +22,7 @@ from signorini.cli.progress import progress
 from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.deck.keys import check_keys
+from signorini.distributed.ranks import PETSC
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.iterative.bodies import ITERATIVE
@@ -57,7 +58,7 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     -------
     The exit code: 0, 3, or 130 where it was interrupted: what was finished before is written
     """
-    known = ["auto", *BACKENDS, ITERATIVE]
+    known = ["auto", *BACKENDS, ITERATIVE, PETSC]
     if options.backend not in known:
         raise InputError(one_of(options.backend, known, "back end"), where=("--backend",))
     start = _start(options.start)

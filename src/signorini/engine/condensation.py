@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import scipy.sparse as sp
 
@@ -10,10 +13,14 @@ from signorini.arrays import BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.kept import Kept
+from signorini.condense.ties import Ties
+from signorini.distributed.ranks import PETSC
 from signorini.engine.examine import Examined
+from signorini.engine.memory_check import refuse_unassembled
 from signorini.errors import InputError
 from signorini.fem.rigid import hinged
 from signorini.fem.stiffness import stiffness
+from signorini.fem.supports import Constraints
 from signorini.interface.active import FreeBodies
 from signorini.interface.sliding import sliding_unknowns
 from signorini.iterative.bodies import ITERATIVE
@@ -97,9 +104,56 @@ def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
     )
 
 
+def assembled(examined: Examined, backend: str) -> Any:
+    """The stiffness of bodies and foundations: a matrix, or its pieces on ranks.
+
+    Parameters
+    ----------
+    examined, backend : the model, and where it is to be solved
+
+    Raises
+    ------
+    InputError
+        If it does not fit, or ranks do not know something in the model.
+    """
+    if backend == PETSC:
+        from signorini.engine.solver_on_ranks import stiffness_on_ranks  # needs PETSc
+
+        return stiffness_on_ranks(examined)
+    refuse_unassembled(examined.model)
+    return whole_stiffness(examined)
+
+
 def whole_stiffness(examined: Examined) -> sp.csr_array:
     """(dofs, dofs) Of bodies and elastic foundations, supports not applied."""
     K = stiffness(examined.space, examined.model)
     for springs in examined.constraints.springs.values():
         K = sp.csr_array(K + springs.T @ springs)
     return K
+
+
+def softness(examined: Examined, condensed: Condensed) -> float:
+    """The farthest that any load moves the bodies, of the sum of its forces: what bends moves far beyond F / (E t).
+
+    Parameters
+    ----------
+    examined, condensed : the model and its condensed bodies
+    """
+    T, found = examined.constraints.transform, [0.0]
+    for forces in examined.loads.values():
+        if size := float(np.abs(forces).sum()):
+            moved = T @ condensed.on_springs(T.T @ forces)
+            found.append(float(np.abs(moved).max(initial=0.0)) / size)
+    return max(found)
+
+
+def with_ties(examined: Examined, ties: Ties) -> Constraints:
+    """What moving supports prescribe, and with it what ties make of it at once: pairs that are tied do not part.
+
+    Parameters
+    ----------
+    examined, ties : the model and its ties
+    """
+    constraints, B, T = examined.constraints, examined.interface.B[ties.rows], examined.constraints.transform
+    prescribed = {name: u + T @ ties.closing(B @ u) for name, u in constraints.prescribed.items()}
+    return replace(constraints, prescribed=prescribed)

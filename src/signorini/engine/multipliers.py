@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.engine.examine import Examined
 from signorini.engine.increment import Increment, IncrementAnswer
 from signorini.engine.solver import CondensedSolver
@@ -21,7 +21,8 @@ from signorini.errors import InputError
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import Bodies, make_bodies
-from signorini.iterative.solve import IncrementLoad, solve_iteratively
+from signorini.iterative.pairs import IteratedPairs
+from signorini.iterative.pressed import IncrementLoad
 from signorini.settings import SolverSettings
 from signorini.solution.scale import Scale
 
@@ -42,7 +43,7 @@ class MultiplierSolver:
     settings : limits of the rounds
     """
 
-    bodies: Bodies
+    bodies: IteratedPairs
     settings: SolverSettings
 
     @property
@@ -81,6 +82,10 @@ class MultiplierSolver:
         interface, scale : not looked at
         absent : (n,) pairs that are switched off
         """
+        return self.without(absent)
+
+    def without(self, absent: BoolArray) -> MultiplierSolver:
+        """Bodies without pairs (n,) that are switched off."""
         return replace(self, bodies=self.bodies.among(~absent)) if absent.any() else self
 
     def moving(self, ways: Array, interface: Interface, scale: Scale) -> MultiplierSolver:  # noqa: ARG002
@@ -133,7 +138,7 @@ class MultiplierSolver:
         """
         bodies, own, system = self.bodies, self.bodies.pairs, increment.system
         load = IncrementLoad(
-            f=bodies.blocks.spread(increment.f),
+            f=increment.f,
             offset=bodies.rested(increment.offset[:, own]),
             bound=system.interface.bound.among(np.isin(np.arange(len(bodies.active)), own)),
             force=system.scale.force,
@@ -142,9 +147,8 @@ class MultiplierSolver:
             rounds=self.settings.multiplier_rounds,
             floating=increment.floating,
         )
-        start = bodies.blocks.spread(free)
         with increment.clock.phase("complementarity"):
-            found, near = solve_iteratively(bodies, load, start, forces[:, own])
+            found, near = bodies.answered(load, free, forces[:, own])
         carried, moved = np.zeros_like(increment.offset), np.zeros_like(increment.offset)
         carried[:, own], moved[:, own] = found.r, found.h
         return IncrementAnswer(
@@ -178,13 +182,7 @@ def make_multipliers(
         If a section of the friction cone is no circle.
     """
     T, d, interface = examined.constraints.transform, examined.space.components, examined.interface
-    if interface.facets.any() or (interface.anisotropy != 1.0).any():
-        i = int(interface.contact[np.argmax((interface.facets > 0) | (interface.anisotropy != 1.0).any(axis=1))])
-        raise InputError(
-            "two coefficients and facets need the condensed interface, and this model is solved by iteration, because "
-            "its factor does not fit or because it was asked for; expected one coefficient and no facets",
-            where=("contact", i),
-        )
+    refuse_sections(interface)
     bodies = make_bodies(
         FreeBodies(K, B, examined.constraints.nodes, examined.space.mesh.points),
         interface,
@@ -193,3 +191,32 @@ def make_multipliers(
         candidates=candidates,
     )
     return MultiplierSolver(bodies=bodies, settings=settings)
+
+
+def with_factors(solver: MultiplierSolver, nodes: IntArray, points: Array, patience: int) -> MultiplierSolver:
+    """Bodies of this process with factors in place of multigrid.
+
+    Parameters
+    ----------
+    solver : on them
+    nodes, points, patience : see `Bodies.factored`
+    """
+    assert isinstance(solver.bodies, Bodies)
+    return replace(solver, bodies=solver.bodies.factored(nodes, points, patience=patience))
+
+
+def refuse_sections(interface: Interface) -> None:
+    """Refuse friction cones whose section is no circle.
+
+    Raises
+    ------
+    InputError
+        The first contact with one.
+    """
+    if interface.facets.any() or (interface.anisotropy != 1.0).any():
+        i = int(interface.contact[np.argmax((interface.facets > 0) | (interface.anisotropy != 1.0).any(axis=1))])
+        raise InputError(
+            "two coefficients and facets need the condensed interface, and this model is solved by iteration, because "
+            "its factor does not fit or because it was asked for; expected one coefficient and no facets",
+            where=("contact", i),
+        )

@@ -12,22 +12,23 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
-from signorini.condense.ties import Ties
+from signorini.distributed.ranks import PETSC
+from signorini.distributed.refusals import refuse_model
 from signorini.engine.bond_company import refuse_held
 from signorini.engine.bond_solver import with_laws
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_model
-from signorini.engine.condensation import condense_bodies, free_bodies, whole_stiffness
+from signorini.engine.condensation import assembled, condense_bodies, free_bodies, softness, with_ties
 from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
-from signorini.engine.memory_check import iterates, refuse_unassembled
-from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers
+from signorini.engine.memory_check import iterates
+from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers, with_factors
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.errors import InputError
 from signorini.fem.rigid import resistance
 from signorini.fem.stiffness import reduced_stiffness
-from signorini.fem.supports import Constraints, make_constraints
+from signorini.fem.supports import make_constraints
 from signorini.interface.interface import Interface, under_laws
 from signorini.interface.worn_sides import WornSides, worn_sides
 from signorini.linalg.plan import Plans
@@ -194,8 +195,7 @@ class Prepared(Examined, DiscreteModel):
         T, nodes = self.constraints.transform, self.constraints.nodes
         K, B = reduced_stiffness(self.K, T), sp.csr_array(self.interface.B @ T)
         solver = make_multipliers(self, K, B, self.solver.active, self.settings)
-        bodies = solver.under(self.interface, self.scale, self.absent).bodies
-        return replace(solver, bodies=bodies.factored(nodes, self.space.places, patience=patience))
+        return with_factors(solver.without(self.absent), nodes, self.space.places, patience)
 
     @property
     def flows(self) -> bool:
@@ -288,7 +288,7 @@ def prepare(
     ----------
     model : the problem
     start : from which the history goes on; its pairs are taken along
-    backend : of the factorisation, "auto", a name or "iterative"
+    backend : of the factorisation, "auto", a name, "iterative" or "petsc"
     settings : limits of the methods
     clock : counts the seconds
 
@@ -298,10 +298,11 @@ def prepare(
         See :func:`examine`; or a compliance is so large that contact hardly holds a body.
     """
     clock = clock or Clock()
+    if backend == PETSC:
+        refuse_model(model)
     with clock.phase("assembly"):
         examined = examine(model, start=start)
-        refuse_unassembled(examined.model)
-        K = whole_stiffness(examined)
+        K = assembled(examined, backend)
         near = candidate_pairs(examined, examined.loading, None if start is None else start.near)
     made = condensed_model(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
@@ -346,10 +347,16 @@ def condensed_model(
     interface = examined.interface
     data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
     yields = examined.model.yields
-    softness, condensed, plans = 0.0, known, Plans() if yields else None
-    with clock.phase("assembly"):
-        reduced = reduced_stiffness(K, examined.constraints.transform) if yields or known is None else None
+    bent, condensed, plans = 0.0, known, Plans() if yields else None
+    reduced = None
     solver: CondensedSolver | MultiplierSolver
+    with clock.phase("assembly"):
+        if backend == PETSC:
+            from signorini.engine.solver_on_ranks import solver_on_ranks  # needs PETSc
+
+            solver = solver_on_ranks(examined, K, candidates, settings)
+        elif yields or known is None:
+            reduced = reduced_stiffness(K, examined.constraints.transform)
     if reduced is not None and condensed is None:
         with clock.phase("assembly"):
             bodies = free_bodies(examined, reduced)
@@ -359,10 +366,10 @@ def condensed_model(
         if not whole:
             condensed = condense_bodies(examined, bodies, candidates, backend, clock, plans)
     if condensed is not None:
-        softness = _softness(examined, condensed)
-        data["scale"] = examined.scale.bent(softness)
+        bent = softness(examined, condensed)
+        data["scale"] = examined.scale.bent(bent)
         if condensed.ties is not None:
-            data["constraints"] = _with_ties(examined, condensed.ties)
+            data["constraints"] = with_ties(examined, condensed.ties)
         solver = CondensedSolver.of(condensed, interface, data["scale"], settings)
     if interface.cohesion is not None:
         refuse_held(examined.model, interface, solver.held)
@@ -376,24 +383,7 @@ def condensed_model(
         candidates=candidates,
         posed=examined.constraints.prescribed,
         settings=settings,
-        softness=softness,
+        softness=bent,
         plans=plans,
         reduced=reduced if yields else None,
     )
-
-
-def _softness(examined: Examined, condensed: Condensed) -> float:
-    """The farthest that any load moves the bodies, of the sum of its forces: what bends moves far beyond F / (E t)."""
-    T, found = examined.constraints.transform, [0.0]
-    for forces in examined.loads.values():
-        if size := float(np.abs(forces).sum()):
-            moved = T @ condensed.on_springs(T.T @ forces)
-            found.append(float(np.abs(moved).max(initial=0.0)) / size)
-    return max(found)
-
-
-def _with_ties(examined: Examined, ties: Ties) -> Constraints:
-    """What moving supports prescribe, and with it what ties make of it at once: pairs that are tied do not part."""
-    constraints, B, T = examined.constraints, examined.interface.B[ties.rows], examined.constraints.transform
-    prescribed = {name: u + T @ ties.closing(B @ u) for name, u in constraints.prescribed.items()}
-    return replace(constraints, prescribed=prescribed)

@@ -22,7 +22,7 @@ def internal_forces(K: sp.csr_array, u: Array) -> Array:
 
     Parameters
     ----------
-    K : (n, n) stiffness
+    K : (n, n) stiffness, or one that multiplies likewise where it is
     u : (n,) displacements
 
     Examples
@@ -32,6 +32,8 @@ def internal_forces(K: sp.csr_array, u: Array) -> Array:
     >>> (K @ u).tolist(), internal_forces(K, u).tolist()
     ([0.0], [1.0])
     """
+    if not isinstance(K, sp.csr_array):  # its rows are on ranks
+        return np.asarray(K.internal_forces(u))
     forces = np.zeros(K.shape[0])
     _multiply(K.indptr, K.indices, K.data, u, forces)
     return forces

@@ -5,24 +5,29 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol
+from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.interface.active import FreeBodies, active_pairs, with_supple
+from signorini.interface.active import FreeBodies, with_supple
 from signorini.interface.interface import Interface
-from signorini.iterative.blocks import Blocks, make_blocks
+from signorini.iterative.blocks import make_blocks
 from signorini.iterative.direct import Direct
 from signorini.iterative.multigrid import Multigrid
+from signorini.iterative.pairs import IteratedPairs, chosen_pairs
+from signorini.iterative.pressed import IncrementLoad
+from signorini.iterative.solve import solve_iteratively
+from signorini.iterative.springs import PairSprings
+from signorini.law.result import ContactAnswer
+from signorini.linalg.krylov import conjugate_gradients
 
 ITERATIVE = "iterative"
 """The name of this way among the back ends."""
 
-_ENDLESS_PATIENCE = 10**6  # rounds
 _SHARP_AIM = 1e-12  # of the sizes of the data: what bodies that are hardly loaded bear, and thin ones bend by
-_SPRING_RATIO = 4.0  # springs of closed pairs, of what their nodes feel: multipliers then converge by as much a round
 
 
 class Preconditioner(Protocol):
@@ -33,61 +38,88 @@ class Preconditioner(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Bodies:
-    """Stiffness and pairs in blocks of nodes.
+class Bodies(IteratedPairs):
+    """Stiffness and pairs in blocks of nodes, all in this process; see `PressedBodies`.
 
     Attributes
     ----------
     K : (b, b) stiffness, padded to whole blocks
     B : (d a, b) relative displacements of the pairs that the law is asked of
-    pairs : (a,) their numbers
-    tied : (a,) those that neither slip nor open
-    active, held : (n,) pairs that the law is asked of; pairs that supports hold
-    stiffness : (a,) D of the springs that trial forces are made with, in all directions, force per length
-    compliance : (d, a) of the interface, length per force
-    rest : (a,) closure that the interface has without force, length, in series as well; None for none
     rigid : (b, k) rigid motions of all parts
-    blocks : of the unknowns
     preconditioner : shared by all loads
-    patience : rounds after which an increment is given up whose residual has not halved
     aim : residual down to which rounds go on that need not, as long as it falls
-    name : for reports
     """
 
     K: sp.bsr_array
     B: sp.csr_array
-    pairs: IntArray
-    tied: BoolArray
-    active: BoolArray
-    held: BoolArray
-    stiffness: Array
-    compliance: Array
     rigid: sp.csr_array
-    blocks: Blocks
     preconditioner: Preconditioner
-    patience: int = _ENDLESS_PATIENCE
     aim: float = np.inf
     name: str = ITERATIVE
-    rest: Array | None = None
 
-    @property
-    def directions(self) -> int:
-        """Rows a pair, d."""
-        return self.blocks.size
-
-    def rested(self, offset: Array) -> Array:
-        """(d, a) Motions of the pairs that loads do not cause, with what the interface has closed without force."""
-        return offset if self.rest is None else np.concatenate([offset[:1] + self.rest, offset[1:]])
-
-    def closing(self, compliance: Array, rest: Array) -> Bodies:
-        """Bodies whose interface closes otherwise along its normals.
+    def answered(self, load: IncrementLoad, free: Array, forces: Array) -> tuple[ContactAnswer, Array]:
+        """Solve one increment, see `IteratedPairs.answered`.
 
         Parameters
         ----------
-        compliance, rest : (a,) length per force, and what it has closed without force, length
+        load, free, forces : as there
         """
-        both = np.concatenate([compliance[None], self.compliance[1:]])
-        return replace(self, compliance=both, rest=rest)
+        spread = self.blocks.spread
+        answer, z = solve_iteratively(self, replace(load, f=spread(load.f)), spread(free), forces)
+        return answer, z[self.blocks.place]
+
+    @cached_property
+    def moves(self) -> BoolArray:
+        """(d, a) Rows of B that see anything."""
+        return np.asarray(np.diff(self.B.indptr).reshape(self.directions, -1) > 0)
+
+    @cached_property
+    def _transposed(self) -> sp.csr_array:
+        return self.B.T.tocsr()
+
+    def internal(self, z: Array) -> Array:
+        """(b,) Forces K z."""
+        return np.asarray(self.K @ z)
+
+    def seen(self, z: Array) -> Array:
+        """(d, a) Motions B z of the pairs."""
+        return np.asarray(self.B @ z).reshape(self.directions, -1)
+
+    def pushed(self, forces: Array) -> Array:
+        """(b,) Forces of the pairs on the bodies."""
+        return np.asarray(self._transposed @ forces.ravel())
+
+    def resultants(self, forces: Array) -> Array:
+        """(k,) Work of forces on the rigid motions of all parts."""
+        return np.asarray(self.rigid.T @ forces)
+
+    def total(self, values: Any) -> Any:
+        """The values: all of them are here."""
+        return values
+
+    def most(self, value: float) -> float:
+        """The value as well."""
+        return value
+
+    def preconditioner_under(self, springs: PairSprings) -> Callable[[Array], Array]:
+        """What makes conjugate gradients fast under springs in the pairs."""
+        return self.preconditioner.under(self._added(springs))
+
+    def solved(
+        self, springs: PairSprings, preconditioner: Callable[[Array], Array], g: Array, residual: float
+    ) -> tuple[Array, int]:
+        """Displacements under forces by conjugate gradients, see `PressedBodies.solved`.
+
+        Parameters
+        ----------
+        springs, preconditioner, g, residual : as there
+        """
+        added = self._added(springs)
+        return conjugate_gradients(lambda v: self.K @ v + added @ v, preconditioner, g, residual)
+
+    def _added(self, springs: PairSprings) -> sp.csr_array:
+        """(b, b) What springs in the pairs add to the stiffness."""
+        return self._transposed @ springs.matrix() @ self.B
 
     def factored(self, nodes: IntArray, points: Array, *, patience: int) -> Bodies:
         """Bodies with factors in place of multigrid: thin bodies and flat cells cost those nothing.
@@ -109,17 +141,8 @@ class Bodies:
         ----------
         kept : (n,) pairs that stay
         """
-        own = kept[self.pairs]
-        return replace(
-            self,
-            B=self.B[np.flatnonzero(np.tile(own, self.directions))],
-            pairs=self.pairs[own],
-            tied=self.tied[own],
-            active=self.active & kept,
-            stiffness=self.stiffness[own],
-            compliance=self.compliance[:, own],
-            rest=None if self.rest is None else self.rest[own],
-        )
+        rows = np.flatnonzero(np.tile(kept[self.pairs], self.directions))
+        return replace(self, B=self.B[rows], **self.parts_among(kept))
 
 
 def make_bodies(
@@ -135,47 +158,55 @@ def make_bodies(
     rigid : (z, k) rigid motions of all parts
     candidates : (n,) pairs that may touch
     """
-    n, d = len(interface), interface.directions
+    d = interface.directions
     K, B, nodes, points = free[:4]
-    seen, moves, held, active = active_pairs(B, interface, candidates)
-    pairs = np.flatnonzero(active | (interface.tied & moves.reshape(d, n).any(axis=0)))
-    own = sp.csr_array(seen[np.concatenate([pairs + k * n for k in range(d)])])
+    chosen = chosen_pairs(B, interface, candidates)
     blocks = make_blocks(nodes, axis, d)
     matrix = blocks.matrix(K)
-    felt = np.asarray((own @ K).multiply(own).sum(axis=1)).ravel().reshape(d, -1).max(axis=0, initial=0.0)
-    felt = with_supple(felt, interface, pairs)
-    near_null = blocks.spread(_near_null(points, nodes, axis, d))
+    felt = np.asarray((chosen.B @ K).multiply(chosen.B).sum(axis=1)).ravel().reshape(d, -1).max(axis=0, initial=0.0)
+    near = blocks.spread(near_null(arms(points, nodes), axis, d))
     return Bodies(
+        **chosen.data(interface, with_supple(felt, interface, chosen.pairs)),
         K=matrix,
-        B=blocks.columns(own),
-        pairs=pairs,
-        tied=interface.tied[pairs],
-        active=active,
-        held=held,
-        stiffness=_SPRING_RATIO * felt,
-        compliance=interface.compliance[:, pairs],
+        B=blocks.columns(chosen.B),
         rigid=sp.csr_array(blocks.columns(sp.csr_array(rigid.T)).T),
         blocks=blocks,
-        preconditioner=Multigrid(matrix, near_null),
+        preconditioner=Multigrid(matrix, near),
     )
 
 
-def _near_null(points: Array, nodes: IntArray, axis: IntArray, d: int) -> Array:
+def arms(points: Array, nodes: IntArray) -> Array:
+    """(z, d) Of free displacements from the centre of all points, the longest 1; of what has no place none.
+
+    Parameters
+    ----------
+    points : (n, d) of the nodes of the mesh, length
+    nodes : (z,) node of each free displacement
+    """
+    on_mesh = (nodes < len(points))[:, None]
+    arm = np.where(on_mesh, points[np.minimum(nodes, len(points) - 1)] - points.mean(axis=0), 0.0)
+    arm /= np.abs(arm).max(initial=0.0) or 1.0
+    return arm
+
+
+def near_null(arm: Array, axis: IntArray, d: int) -> Array:
     """(z, k) Translations and small rotations of everything together; what has no place only moves along.
 
     Of bodies of revolution those of their meridian, a ring that twists in its plane, and the turn about the axis.
+
+    Parameters
+    ----------
+    arm : (z, 2 or 3) see `arms`
+    axis : (z,) direction of each free displacement
+    d : directions
     """
-    on_mesh = (nodes < len(points))[:, None]
-    centre = points.mean(axis=0)
-    arm = np.where(on_mesh, points[np.minimum(nodes, len(points) - 1)] - centre, 0.0)
-    arm /= np.abs(arm).max(initial=0.0) or 1.0
     modes = [axis == j for j in range(d)]
     rows = np.arange(len(axis))
-    for j in range(points.shape[1]):
+    for j in range(arm.shape[1]):
         for k in range(j):
             turned = np.zeros((len(axis), d))
             turned[:, j], turned[:, k] = arm[:, k], -arm[:, j]
             modes.append(turned[rows, axis])
-    if d > points.shape[1]:
+    if d > arm.shape[1]:
         modes.append(np.where(axis == 2, arm[:, 0], 0.0))
     return np.column_stack(modes).astype(np.float64)

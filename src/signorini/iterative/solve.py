@@ -20,21 +20,20 @@ Rockafellar (1976), Augmented Lagrangians and applications of the proximal point
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
 from signorini.attempt import MethodRun
 from signorini.errors import told
-from signorini.iterative.bodies import Bodies
+from signorini.iterative.pressed import IncrementLoad, PressedBodies
 from signorini.iterative.springs import PairSprings
-from signorini.law.bound import Bound, FrictionBound
+from signorini.law.bound import FrictionBound
 from signorini.law.pair import PairLaw
 from signorini.law.result import ContactAnswer
 from signorini.law.section import FrictionSection
 from signorini.law.states import OPEN, STICK
-from signorini.linalg.krylov import conjugate_gradients
 from signorini.outcome import Outcome
 
 _MAX_NEWTON = 20  # steps a round
@@ -52,33 +51,10 @@ NOT_SETTLED = told(
 )
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class IncrementLoad:
-    """What an increment asks.
-
-    Attributes
-    ----------
-    f : (b,) forces
-    offset : (d, a) relative displacements without z, length
-    bound : of the friction forces of a pairs
-    force, length : sizes of the data
-    floating : whether contact alone holds a body
-    tolerance : of the sizes of the data: equilibrium, gaps that should be closed, forces that should have settled
-    rounds : most of them
-    """
-
-    f: Array
-    offset: Array
-    bound: Bound
-    force: float
-    length: float
-    floating: bool
-    tolerance: float
-    rounds: int
-
-
-def solve_iteratively(bodies: Bodies, load: IncrementLoad, z: Array, forces: Array) -> tuple[ContactAnswer, Array]:
-    """Solve one increment: the answer of the pairs, tied ones too, in their own units, and (z,) free displacements.
+def solve_iteratively(
+    bodies: PressedBodies, load: IncrementLoad, z: Array, forces: Array
+) -> tuple[ContactAnswer, Array]:
+    """Solve one increment: the answer of the pairs, tied ones too, in their own units, and (b,) displacements.
 
     Parameters
     ----------
@@ -103,39 +79,39 @@ def solve_iteratively(bodies: Bodies, load: IncrementLoad, z: Array, forces: Arr
 class _Rounds:
     """The iterates of an increment: displacements z, forces of the pairs (``multiplier``), trial forces y and bounds.
 
-    D, C and E are those of the module; ``internal`` is K z, ``relative`` B z + h_0.
+    D, C and E are those of the module; ``internal`` is K z, ``relative`` B z + h_0. All arrays are of the part of the
+    bodies and pairs that is here: sums and largest values are those of all parts.
     """
 
-    def __init__(self, bodies: Bodies, load: IncrementLoad, z: Array, forces: Array) -> None:
+    def __init__(self, bodies: PressedBodies, load: IncrementLoad, z: Array, forces: Array) -> None:
         d, a = load.offset.shape
         self.bodies, self.load = bodies, load
         self.z, self.multiplier = z.copy(), forces.copy()
         self.D, self.C = bodies.stiffness, bodies.compliance
         self.E = 1.0 / (1.0 + self.D * self.C)
         self.softened = self.E * self.D
-        self.transposed = bodies.B.T.tocsr()
         self.section = FrictionSection.round(d - 1, a)
-        self.moves = np.diff(bodies.B.indptr).reshape(d, a) > 0
-        self.internal = bodies.K @ self.z
-        self.relative = self._seen(self.z) + load.offset
+        self.stiffest = bodies.most(float(self.softened.max(initial=0.0)))
+        self.internal = bodies.internal(self.z)
+        self.relative = bodies.seen(self.z) + load.offset
         self.y = self._trial()
         touching = self.y[0] >= 0
         sticks = np.where(touching & (load.bound.steepest > 0), np.inf, 0.0)
-        self.bound = self._bound(forces[0]) if forces.any() else sticks
+        self.bound = self._bound(forces[0]) if self._any(forces) else sticks
         self.law = self._law()
-        self.cycle: tuple[PairSprings, Callable[[Array], Array]] | None = None
+        self.cycle: tuple[PairSprings, Any] | None = None
         self.iterations: list[int] = []
         self.changes: list[int] = []
 
     def newton(self) -> None:
         """Approach equilibrium under the multipliers and bounds of this round."""
-        load = self.load
+        bodies, load = self.bodies, self.load
         for _ in range(_MAX_NEWTON):
             forces = self._project(self.y)
-            g = load.f + self.transposed @ forces.ravel() - self.internal
-            lag = self.transposed @ (forces - self.multiplier).ravel()
-            left = float(np.linalg.norm(g))
-            if left <= _EQUILIBRIUM_SHARE * float(np.linalg.norm(lag)) or left <= 0.1 * load.tolerance * load.force:
+            g = load.f + bodies.pushed(forces) - self.internal
+            lag = self._norm(bodies.pushed(forces - self.multiplier))
+            left = self._norm(g)
+            if left <= _EQUILIBRIUM_SHARE * lag or left <= 0.1 * load.tolerance * load.force:
                 return
             step, count = self._step(g)
             whole = self._go(step, forces)
@@ -147,19 +123,19 @@ class _Rounds:
         """Take over forces and bounds; the largest residual of what is left."""
         bodies, load = self.bodies, self.load
         # steps that went far and back again have left their rounding in the sums
-        self.internal, self.relative = bodies.K @ self.z, self._seen(self.z) + load.offset
+        self.internal, self.relative = bodies.internal(self.z), bodies.seen(self.z) + load.offset
         self.y = self._trial()
         forces = self._project(self.y)
-        g = load.f + self.transposed @ forces.ravel() - self.internal
-        balance = np.abs(np.concatenate([g, bodies.rigid.T @ g])).max(initial=0.0)
+        g = load.f + bodies.pushed(forces) - self.internal
+        balance = np.abs(np.concatenate([g, bodies.resultants(g)])).max(initial=0.0)
         change = np.abs(forces - self.multiplier)
-        motion = np.where(self.moves, change / np.maximum(self.D, 1e-300), 0.0).max(initial=0.0)
+        motion = np.where(bodies.moves, change / np.maximum(self.D, 1e-300), 0.0).max(initial=0.0)
         before = self.state
         self.multiplier, self.bound = forces, self._bound(forces[0])
         self.law = self._law()
         self.y = self._trial()
-        self.changes.append(int(np.count_nonzero(self.state != before)))
-        return float(max(balance / load.force, change.max(initial=0.0) / load.force, motion / load.length))
+        self.changes.append(int(bodies.total(np.count_nonzero(self.state != before))))
+        return bodies.most(float(max(balance / load.force, change.max(initial=0.0) / load.force, motion / load.length)))
 
     @property
     def state(self) -> IntArray:
@@ -192,14 +168,17 @@ class _Rounds:
             residual=worst,
             message=message,
         )
-        return answer, self.z[self.bodies.blocks.place]
+        return answer, self.z
 
     def _law(self) -> PairLaw:
         """The law under the friction bounds of this round, but for ties, which carry any force."""
         return PairLaw(bound=FrictionBound.constant(self.bound), section=self.section)
 
-    def _seen(self, z: Array) -> Array:
-        return (self.bodies.B @ z).reshape(self.load.offset.shape)
+    def _norm(self, values: Array) -> float:
+        return float(np.sqrt(self.bodies.total(values @ values)))
+
+    def _any(self, values: Array) -> bool:
+        return self.bodies.most(float(values.any())) > 0.0
 
     def _bound(self, normal: Array) -> Array:
         return self.load.bound.at(np.maximum(normal, 0.0))
@@ -207,7 +186,7 @@ class _Rounds:
     def _trial(self) -> Array:
         y = self.E * (self.multiplier - self.D * self.relative)
         # what supports drag along slips as they say, whatever acts on it
-        dragged = ~self.moves[1:].any(axis=0) & ~self.bodies.tied
+        dragged = ~self.bodies.moves[1:].any(axis=0) & ~self.bodies.tied
         y[1:, dragged] = -_DRAGGED_STIFFNESS * self.load.offset[1:, dragged]
         return y
 
@@ -215,14 +194,13 @@ class _Rounds:
         return np.where(self.bodies.tied, y, self.law.split(y)[1])
 
     def _step(self, g: Array) -> tuple[Array, int]:
-        bodies = self.bodies
-        pairs = PairSprings.of(self.section, self.y, self.bound, self.softened, bodies.tied)
+        pairs = PairSprings.of(self.section, self.y, self.bound, self.softened, self.bodies.tied)
         if self.load.floating:
             pairs = pairs.floored(_STIFFNESS_FLOOR * self.softened)
-        springs = self.transposed @ pairs.matrix() @ bodies.B
-        if self.cycle is None or pairs.change(self.cycle[0]) > _SPRING_CHANGE * float(self.softened.max(initial=0.0)):
-            self.cycle = pairs, bodies.preconditioner.under(springs)
-        return conjugate_gradients(lambda v: bodies.K @ v + springs @ v, self.cycle[1], g, _NEWTON_RESIDUAL)
+        bodies, cycle = self.bodies, self.cycle
+        if cycle is None or bodies.most(pairs.change(cycle[0])) > _SPRING_CHANGE * self.stiffest:
+            self.cycle = cycle = pairs, bodies.preconditioner_under(pairs)
+        return bodies.solved(pairs, cycle[1], g, _NEWTON_RESIDUAL)
 
     def _go(self, step: Array, forces: Array) -> bool:
         """Along a step to where the energy is least: a convex function whose slope is found from the pairs alone.
@@ -234,15 +212,16 @@ class _Rounds:
         Whether this round goes on.
         """
         bodies, load = self.bodies, self.load
-        internal, across = bodies.K @ step, self._seen(step)
-        stiff, rest = float(step @ internal), float(step @ (load.f - self.internal))
+        internal, across = bodies.internal(step), bodies.seen(step)
+        given = np.array([step @ internal, step @ (load.f - self.internal), (across * forces).sum()])
+        stiff, rest, first = bodies.total(given).tolist()
 
         def downhill(t: float) -> float:
             y = self.y - t * self.softened * across
-            return rest - t * stiff + float((across * self._project(y)).sum())
+            return rest - t * stiff + float(bodies.total((across * self._project(y)).sum()))
 
-        t = _root(downhill, rest + float((across * forces).sum()))
-        slides = t > 1.0 and load.floating and bool(forces.any())
+        t = _root(downhill, rest + first)
+        slides = t > 1.0 and load.floating and self._any(forces)
         t = 1.0 if slides else t
         self.z += t * step
         self.internal = self.internal + t * internal

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies and pairs on all ranks as the first one sees them: it asks for increments, and puts their answers together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.distributed.parts import AskedOfPairs, RowsOfBodies, answer_pairs, hold_bodies, hold_pairs
+from signorini.distributed.ranks import PETSC
+from signorini.distributed.stiffness import StiffnessOnRanks
+from signorini.fem.space import Space
+from signorini.fem.supports import Constraints
+from signorini.interface.active import with_supple
+from signorini.interface.interface import Interface
+from signorini.iterative.blocks import Blocks
+from signorini.iterative.bodies import arms, near_null
+from signorini.iterative.pairs import IteratedPairs, chosen_pairs
+from signorini.iterative.pressed import IncrementLoad
+from signorini.law.result import ContactAnswer
+
+
+class RowsOnRanks:
+    """The bodies in blocks of nodes, rows on all ranks.
+
+    Attributes
+    ----------
+    team : the ranks
+    number : under which they hold them
+    blocks : of the unknowns, those of the first rank first
+    ends : (ranks + 1,) where the unknowns of the ranks begin and end
+
+    Parameters
+    ----------
+    K : pieces on the ranks
+    space, constraints : of the bodies
+    rigid : (z, k) rigid motions of all parts
+    """
+
+    def __init__(self, K: StiffnessOnRanks, space: Space, constraints: Constraints, rigid: sp.csr_array) -> None:
+        self.team, self.number, self._K = K.team, K.team.kept(self), K
+        d = space.components
+        known, index = np.unique(constraints.nodes, return_inverse=True)
+        owner = K.owner_of(known)
+        block = np.empty(len(known), dtype=np.int64)
+        block[np.argsort(owner, kind="stable")] = np.arange(len(known))
+        axis = constraints.leaders % d
+        self.blocks = Blocks(size=d, count=len(known), place=d * block[index] + axis)
+        self.ends = d * np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=self.team.size))])
+        arm = arms(space.mesh.points, constraints.nodes)
+        self.team.everywhere(
+            hold_bodies, K.number, self.number, pieces=self._rows(constraints.transform, arm, axis, rigid)
+        )
+
+    def _rows(self, transform: sp.csr_array, arm: Array, axis: IntArray, rigid: sp.csr_array) -> Iterator[RowsOfBodies]:
+        d, place = self.blocks.size, self.blocks.place
+        for rank, dofs in enumerate(self._K.dofs):
+            first, last = (int(end) for end in self.ends[rank : rank + 2])
+            moved = transform[dofs]
+            columns = np.unique(np.concatenate([moved.indices, np.flatnonzero((place >= first) & (place < last))]))
+            numbered = np.searchsorted(columns, moved.indices)
+            own = np.flatnonzero((place >= first) & (place < last))
+            near = near_null(arm[own], axis[own], d)
+            spread = np.zeros((last - first, near.shape[1]))
+            spread[place[own] - first] = near
+            motions = rigid[own].tocoo()
+            yield RowsOfBodies(
+                transform=sp.csr_array((moved.data, numbered, moved.indptr), shape=(len(dofs), len(columns))),
+                place=place[columns],
+                first=first,
+                last=last,
+                size=d * self.blocks.count,
+                d=d,
+                near_null=spread,
+                rigid=sp.csr_array(
+                    (motions.data, (place[own][motions.row] - first, motions.col)), shape=(last - first, rigid.shape[1])
+                ),
+            )
+
+    def parts(self, values: Array) -> list[Array]:
+        """Values of free displacements (z,) on the unknowns of every rank."""
+        return np.split(self.blocks.spread(values), self.ends[1:-1])
+
+
+class PairsHeld:
+    """Pairs on the ranks, until nobody asks for them.
+
+    Attributes
+    ----------
+    number : under which they are held
+    felt : of every rank the stiffness of the bodies at its pairs, (a,)
+
+    Parameters
+    ----------
+    rows : the bodies
+    B : (d a, z) relative displacements of the pairs
+    owner : (a,) rank of every pair
+    """
+
+    def __init__(self, rows: RowsOnRanks, B: sp.csr_array, owner: IntArray) -> None:
+        self.number = rows.team.kept(self)
+        columns, a = rows.blocks.columns(B), len(owner)
+        steps = a * np.arange(rows.blocks.size)
+        pieces = (columns[(np.flatnonzero(owner == r)[:, None] + steps).ravel()] for r in range(rows.team.size))
+        self.felt = rows.team.everywhere(hold_pairs, rows.number, self.number, pieces=pieces)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class BodiesOnRanks(IteratedPairs):
+    """Pairs, and the ranks that answer for their bodies.
+
+    Attributes
+    ----------
+    rows : the bodies
+    B : (d a, z) relative displacements of the pairs
+    owner : (a,) rank of every pair
+    on_ranks : the pairs there
+    """
+
+    rows: RowsOnRanks
+    B: sp.csr_array
+    owner: IntArray
+    on_ranks: PairsHeld
+    name: str = PETSC
+
+    def answered(self, load: IncrementLoad, free: Array, forces: Array) -> tuple[ContactAnswer, Array]:
+        """Solve one increment on all ranks, see `IteratedPairs.answered`.
+
+        Parameters
+        ----------
+        load, free, forces : as there; the forces of the load are on the free displacements
+        """
+        asked = self._asked(load, free, forces)
+        found = self.rows.team.everywhere(answer_pairs, self.on_ranks.number, self.patience, pieces=asked)
+        answers = [answer for answer, _ in found]
+        joined = {name: self._together([getattr(answer, name) for answer in answers]) for name in ("h", "r", "state")}
+        z = np.concatenate([part for _, part in found])
+        return replace(answers[0], **joined), z[self.blocks.place]
+
+    def among(self, kept: BoolArray) -> BodiesOnRanks:
+        """Bodies with fewer pairs.
+
+        Parameters
+        ----------
+        kept : (n,) pairs that stay
+        """
+        own = kept[self.pairs]
+        B, owner = self.B[np.flatnonzero(np.tile(own, self.directions))], self.owner[own]
+        held = PairsHeld(self.rows, B, owner)
+        return replace(self, B=B, owner=owner, on_ranks=held, **self.parts_among(kept))
+
+    def _asked(self, load: IncrementLoad, free: Array, forces: Array) -> Iterator[AskedOfPairs]:
+        pressing, start = self.rows.parts(load.f), self.rows.parts(free)
+        for rank in range(self.rows.team.size):
+            own = self.owner == rank
+            yield AskedOfPairs(
+                load=replace(load, f=pressing[rank], offset=load.offset[:, own], bound=load.bound.among(own)),
+                z=start[rank],
+                forces=forces[:, own],
+                tied=self.tied[own],
+                stiffness=self.stiffness[own],
+                compliance=self.compliance[:, own],
+            )
+
+    def _together(self, parts: Sequence[Array]) -> Any:
+        """Values (..., a) of all pairs from those of every rank."""
+        joined = np.concatenate(parts, axis=-1)
+        result = np.empty_like(joined)
+        result[..., np.argsort(self.owner, kind="stable")] = joined
+        return result
+
+
+def make_bodies_on_ranks(
+    rows: RowsOnRanks, K: StiffnessOnRanks, B: sp.csr_array, interface: Interface, candidates: BoolArray
+) -> BodiesOnRanks:
+    """Put pairs on bodies that are on all ranks.
+
+    Parameters
+    ----------
+    rows : the bodies
+    K : their pieces
+    B : (d n, z) relative displacements of the pairs in terms of the free displacements
+    interface : the pairs
+    candidates : (n,) pairs that may touch
+    """
+    chosen = chosen_pairs(B, interface, candidates)
+    owner = K.owner_of(interface.node[chosen.pairs])
+    held = PairsHeld(rows, chosen.B, owner)
+    felt = np.empty(len(owner))
+    felt[np.argsort(owner, kind="stable")] = np.concatenate(held.felt)
+    data = chosen.data(interface, with_supple(felt, interface, chosen.pairs))
+    return BodiesOnRanks(**data, blocks=rows.blocks, rows=rows, B=chosen.B, owner=owner, on_ranks=held)

@@ -1,0 +1,193 @@
+"""Bodies on the ranks of MPI have the answers of bodies that are factorised; where PETSc is not installed, why not."""
+
+import importlib.util
+import json
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import signorini as sg
+from signorini.cli import main
+from signorini.distributed import ranks
+from signorini.gallery.cubes import cubes
+from signorini.gallery.sliding import dragged_cylinder
+from tests.helpers.on_ranks import MODELS
+
+HOUSE = Path(__file__).parents[2]
+missing = [name for name in ("petsc4py", "mpi4py") if importlib.util.find_spec(name) is None]
+with_petsc = pytest.mark.skipif(bool(missing), reason=f"not installed: {', '.join(missing)}")
+with_ranks = pytest.mark.skipif(
+    bool(missing) or shutil.which("mpiexec") is None, reason=f"not installed: {', '.join(missing) or 'mpiexec'}"
+)
+LIMIT = 1800  # seconds that a run of several ranks may take
+
+
+def on_ranks(number, *arguments):
+    """What a Python of several ranks leaves behind; OpenMPI asks whether root and few cores are meant."""
+    allowed = {f"OMPI_{name}": "1" for name in ("ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM")}
+    few = {"OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_mpi_yield_when_idle": "1"}
+    paths = {"PYTHONPATH": os.pathsep.join([str(HOUSE / "src"), str(HOUSE)])}
+    return subprocess.run(
+        ["mpiexec", "-n", str(number), sys.executable, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=LIMIT,
+        env=os.environ | allowed | few | paths,
+        cwd=HOUSE,
+        check=False,
+    )
+
+
+def hold(found):
+    assert found["back ends"] == ["multifrontal", "petsc"]
+    assert found["passed"]
+    assert found["states"] == 0
+    assert max(found["pressure"], found["traction"], found["displacement"]) <= 1e-8
+
+
+@with_petsc
+@pytest.mark.slow
+@pytest.mark.parametrize("name", MODELS)
+def test_same_answers_on_one_rank(name):
+    from tests.helpers.on_ranks import compared
+
+    hold(compared(name))
+
+
+@with_ranks
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [2, 3, 4])
+def test_same_answers_on_several(number):
+    """All models in one run, which starts its ranks once."""
+    done = on_ranks(number, "-m", "tests.helpers.on_ranks")
+    assert done.returncode == 0, done.stderr
+    answers = json.loads(done.stdout)
+    assert answers.keys() == MODELS.keys()
+    for found in answers.values():
+        hold(found)
+
+
+@with_ranks
+@pytest.mark.slow
+def test_the_command_line_writes_the_same_results(tmp_path, capsys):
+    """From a deck, by two ranks; and of a wrong deck one message and exit code 2 of all."""
+    deck = HOUSE / "examples" / "zhu_cylinder_frictionless.toml"
+    done = on_ranks(2, "-m", "signorini", "run", str(deck), "--backend", "petsc", "-o", str(tmp_path / "ranks"))
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("back end petsc") == 1
+    assert main(["run", str(deck), "-o", str(tmp_path / "one"), "--quiet"]) == 0
+    assert main(["diff", str(tmp_path / "one"), str(tmp_path / "ranks"), "--tolerance", "1e-8"]) == 0
+    capsys.readouterr()
+    (tmp_path / "wrong.toml").write_text(deck.read_text().replace("friction = 0.0", "friction = -1.0"))
+    for words, said in (
+        (["run", str(tmp_path / "wrong.toml"), "--backend", "petsc"], "friction"),
+        (["run", str(deck), "--backend", "petsc", "--colour"], "--colour"),
+    ):
+        done = on_ranks(2, "-m", "signorini", *words)
+        assert done.returncode == 2
+        assert done.stderr.count(said) == 1
+
+
+DYING = """
+import signorini as sg
+from signorini.cli import main
+from signorini.distributed import parts, ranks
+from signorini.iterative import solve
+
+answered = 0
+
+def dies(*asked):
+    global answered
+    answered += 1
+    if ranks.the_team().rank == 1 and answered == 6:
+        raise RuntimeError("the room is dark")
+    return solve.solve_iteratively(*asked)
+
+parts.solve_iteratively = dies
+raise SystemExit(main(["run", {deck!r}, "--backend", "petsc", "-o", {out!r}, "--quiet"]))
+"""
+
+
+@with_ranks
+@pytest.mark.slow
+def test_a_rank_that_fails_ends_all_and_leaves_finished_steps(tmp_path):
+    from signorini.output.folder import read_results
+
+    script = tmp_path / "script.py"
+    script.write_text(DYING.format(deck=str(HOUSE / "examples" / "block_drag.toml"), out=str(tmp_path / "out")))
+    done = on_ranks(2, str(script))
+    assert done.returncode != 0
+    assert "signorini: rank 1 failed: RuntimeError: the room is dark" in done.stderr
+    history = read_results(tmp_path / "out")
+    assert len(history.steps) >= 1
+    assert history.steps[0].certificate.passed
+
+
+def yielding():
+    model = cubes(2)
+    soft = [replace(body, material=replace(body.material, plastic=sg.Plastic(1.0))) for body in model.bodies]
+    return replace(model, bodies=[replace(body, formulation="mean dilatation") for body in soft])
+
+
+def worn():
+    model = cubes(2)
+    return replace(model, contacts=[replace(model.contacts[0], wear=sg.Wear(1e-6))])
+
+
+REFUSED = {
+    r"body\[0\]\.material: back end 'petsc' does not know bodies that yield \('lower'\); expected elastic": yielding,
+    r"contact\[0\]\.wear: back end 'petsc' does not know sides that wear": worn,
+    r"contact\[0\]\.sliding: back end 'petsc' does not know contacts that slide far": lambda: dragged_cylinder(
+        stroke=0.4, spacing=0.4
+    ),
+    r"contact\[0\]: two coefficients and facets need the condensed": lambda: replace(
+        cubes(2), contacts=[replace(cubes(2).contacts[0], facets=8)]
+    ),
+}
+
+
+@with_petsc
+@pytest.mark.parametrize("words", REFUSED)
+def test_what_ranks_do_not_know_is_refused_by_name(words, monkeypatch):
+    """Before anything is cut."""
+    from signorini.distributed import stiffness
+
+    monkeypatch.setattr(stiffness, "owners", lambda *_: pytest.fail("a mesh was cut"))
+    with pytest.raises(sg.InputError, match=words):
+        sg.solve(REFUSED[words](), backend="petsc")
+
+
+@with_petsc
+def test_rigid_bodies_that_contact_alone_holds_are_refused(monkeypatch):
+    from signorini.distributed import stiffness
+
+    monkeypatch.setattr(stiffness, "owners", lambda *_: pytest.fail("a mesh was cut"))
+    ball = sg.Rigid("ball", sg.Circle((1.5, 3.0), 3.0), u=(None, None), rotation=None, force=(0.5, -5.0), moment=0.0)
+    model = sg.Model(
+        sg.rectangle(width=3.0, height=1.0, nx=6, ny=2),
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+        supports=[sg.Support("bottom", u=(0, 0))],
+        obstacles=[ball],
+        contacts=[sg.Contact("top", "ball", friction=0.3)],
+        steps=[sg.Step(increments=1)],
+    )
+    with pytest.raises(sg.InputError, match="does not know rigid bodies and obstacles that contact alone holds"):
+        sg.solve(model, backend="petsc")
+
+
+def test_a_machine_without_petsc_is_told(monkeypatch, capsys):
+    """In one line, before a model is looked at, and with the page that says how to install it."""
+    monkeypatch.setitem(sys.modules, "petsc4py", None)
+    monkeypatch.setattr(ranks, "the_team", ranks.the_team.__wrapped__)
+    words = r"^back end 'petsc' needs petsc4py and mpi4py \(.*petsc4py.*\); docs/distributed\.md says how they are"
+    with pytest.raises(sg.InputError, match=words), sg.ranks():
+        pytest.fail("there are no ranks")
+    assert main(["run", "nowhere.toml", "--backend", "petsc"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("signorini: back end 'petsc' needs petsc4py and mpi4py")
+    assert said.count("\n") == 1

@@ -1,0 +1,126 @@
+"""Models that ranks solve, and what they say of them: ``mpiexec -n 2 python -m tests.helpers.on_ranks NAME ...``."""
+
+import json
+import sys
+from dataclasses import replace
+
+import numpy as np
+
+import signorini as sg
+from signorini.gallery.blocks import block_on_foundation, dragged_block, four_blocks, stacked_blocks
+from signorini.gallery.closures import block_on_a_bed
+from signorini.gallery.cubes import cubes
+from signorini.gallery.cylinder import zhu_cylinder
+from signorini.gallery.half_spaces import ball
+from signorini.gallery.sectors import ring_on_shaft
+from signorini.gallery.twisted import ring_under_torque
+from signorini.meshing.solid import box
+from signorini.model.mesh import join
+
+
+def in_increments(model):
+    """A model whose steps say how they go on: what is iterated has no exact path."""
+    return replace(model, steps=[replace(step, increments=step.increments or 1) for step in model.steps])
+
+
+def floating(friction=0.3):
+    """A block on another that does not match it, held by friction alone, or tied."""
+    fine, coarse = np.linspace(0, 1, 5), np.linspace(-0.5, 1.5, 4)
+    low, up = box(x=coarse, y=coarse, z=[-1, 0]), box(x=fine, y=fine, z=fine)
+    return sg.Model(
+        join({"low": low, "up": up}),
+        bodies=[sg.Body(name, sg.Elastic(E=2e5, nu=0.3)) for name in ("low", "up")],
+        supports=[sg.Support("low.bottom", u=(0, 0, 0))],
+        loads=[sg.Load("up.top", traction=(5.0, 2.0, -50.0))],
+        contacts=[sg.Contact("up.bottom", "low.top", friction=friction)],
+        steps=[sg.Step(increments=1)],
+    )
+
+
+def several_steps():
+    """A warm block on springs under a moving obstacle; a side is let go in the second step, contact in the third."""
+    mesh = sg.rectangle(width=3.0, height=1.0, nx=9, ny=4)
+    return sg.Model(
+        mesh,
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3, expansion=1e-4), formulation="incompatible")],
+        supports=[sg.Support("left", u=(0, None)), sg.Support("right", u=(0, None), name="side")],
+        foundations=[sg.Foundation("bottom", normal_stiffness=500.0, tangential_stiffness=100.0)],
+        loads=[sg.Load("block", temperature=5.0, name="heat")],
+        obstacles=[sg.Rigid("punch", sg.Circle((1.4, 3.0), 2.0), u=(0.01, -0.05))],
+        contacts=[sg.Contact("top", "punch", friction=0.3, name="touch")],
+        steps=[
+            sg.Step(name="press", increments=2),
+            sg.Step(name="let go", increments=1, release=["side"]),
+            sg.Step(name="off", increments=1, inactive=["touch"]),
+        ],
+    )
+
+
+def coupled():
+    """A block whose top moves as one, and one whose side follows an equation: unknowns that several ranks feel."""
+    mesh = join(
+        {
+            "low": sg.rectangle(width=3.0, height=1.0, nx=7, ny=3),
+            "up": sg.rectangle(x=np.linspace(0.5, 2.0, 6).tolist(), y=[1.0, 1.5, 2.0]),
+        }
+    )
+    return sg.Model(
+        mesh,
+        bodies=[sg.Body(name, sg.Elastic(E=1000.0, nu=0.3)) for name in ("low", "up")],
+        supports=[sg.Support("low.bottom", u=(0, 0))],
+        loads=[sg.Load("up.top", force=(1.0, -20.0), spread="displacement")],
+        contacts=[sg.Contact("up.bottom", "low.top", friction=0.4)],
+        steps=[sg.Step(increments=2)],
+    )
+
+
+MODELS = {
+    "cubes": lambda: cubes(4, 3),
+    "cubes, frictionless": lambda: cubes(4, 3, friction=0.0),
+    "ball on block": lambda: ball(n=2, block=3),
+    "the paper's cylinder": lambda: zhu_cylinder(refine=2),
+    "four blocks": four_blocks,
+    "mortar": lambda: stacked_blocks(friction=0.3, across=(7, 5), cells="quad8"),
+    "load beside the contact": lambda: block_on_foundation(friction=0.3, across=(5, 7)),
+    "several loads": dragged_block,
+    "several steps": several_steps,
+    "held by contact alone": floating,
+    "tied": lambda: floating("tied"),
+    "axisymmetric": lambda: block_on_a_bed(kind="axisymmetric", friction=0.2, steps=[sg.Step(increments=2)]),
+    "a closure": lambda: block_on_a_bed("1.0 + x", friction=0.0, steps=[sg.Step(increments=2)]),
+    "coupled unknowns": coupled,
+    "a sector": lambda: ring_on_shaft(whole=False),
+    "twist": ring_under_torque,
+}
+
+
+def compared(name):
+    """How far the answers of all ranks are from those of the factorised bodies."""
+    model = in_increments(MODELS[name]())
+    here, there = sg.solve(model), sg.solve(model, backend="petsc")
+    found = {"back ends": [here.backend, there.backend], "pressure": 0.0, "traction": 0.0, "states": 0}
+    found["passed"] = all(step.certificate.passed for step in there.steps)
+    found["displacement"] = 0.0
+    for one, other in zip(here.steps, there.steps, strict=True):
+        size = np.abs(one.displacement).max()
+        found["displacement"] = max(
+            found["displacement"], float(np.abs(one.displacement - other.displacement).max() / size)
+        )
+        for a, b in zip(one.contacts, other.contacts, strict=True):
+            size = np.abs(a.pressure).max() or 1.0
+            for key in ("pressure", "traction"):
+                apart = float(np.abs(getattr(a, key) - getattr(b, key)).max() / size)
+                found[key] = max(found[key], apart)
+            found["states"] += int((a.status != b.status).sum())
+    return found
+
+
+def main(names):
+    """Print what is found, by name."""
+    with sg.ranks() as first:
+        if first:
+            print(json.dumps({name: compared(name) for name in names or MODELS}))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
