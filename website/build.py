@@ -47,7 +47,7 @@ NAVIGATION: dict[str, list[str]] = {
     ],
     "Gallery": ["gallery.md"],
     "Theory": ["theory.md", "method.md", "robust_friction.md", "budgets.md"],
-    "Evidence": ["verification.md", "performance.md", "lcp_benchmark.md"],
+    "Evidence": ["verification.md", "performance.md", "distributed.md", "lcp_benchmark.md"],
     "Reference": [],
     "Project": ["glossary.md", "design.md", "site.md", "contributing.md", "changelog.md"],
 }

@@ -167,7 +167,7 @@ def test_rigid_bodies_that_contact_alone_holds_are_refused(monkeypatch):
     from signorini.distributed import stiffness
 
     monkeypatch.setattr(stiffness, "owners", lambda *_: pytest.fail("a mesh was cut"))
-    ball = sg.Rigid("ball", sg.Circle((1.5, 3.0), 3.0), u=(None, None), rotation=None, force=(0.5, -5.0), moment=0.0)
+    ball = sg.Rigid("ball", sg.Circle((1.5, 4.0), 3.0), u=(None, None), rotation=None, force=(0.5, -5.0), moment=0.0)
     model = sg.Model(
         sg.rectangle(width=3.0, height=1.0, nx=6, ny=2),
         bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
