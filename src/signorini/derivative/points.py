@@ -59,7 +59,7 @@ class TapePoint:
     h, r : (d, n) motions and forces here
     h_rate, r_rate : (d, n) per unit of the part of the leg, on a path in the plane; None elsewhere
     load_rate : (d n + k,) in space, of what the equations see of the load on a path; None elsewhere
-    follows : whether the piece keeps its length, so that its end moves with its beginning: nothing happens there
+    quiet : whether the piece ends in the middle of a leg where nothing happens, at a load that is given
     acting : (m,) pairs whose event it is; empty where the load is given
     increment : (n,) or all: whether the friction of a pair in the piece is that of its end, as in an increment
     """
@@ -77,7 +77,7 @@ class TapePoint:
     acting: IntArray
     increment: bool | BoolArray
     load_rate: Array | None = None
-    follows: bool = False
+    quiet: bool = False
 
     @property
     def at_event(self) -> bool:
@@ -241,7 +241,7 @@ def _in_space(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePo
         )
         if piece.factor < 1.0 or not whole:
             acting = acting_pairs(found.conditions, start, found.piece_end)
-            found = replace(found, acting=acting, follows=not len(acting))
+            found = replace(found, acting=acting, quiet=not len(acting))
         yield found
 
 

@@ -249,7 +249,7 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
             load += at_once[i]
         h, r = system.respond(states, load)
         h, r = h + held, r + given
-        part = found[-1].part if point.follows and i and points[i - 1].leg == point.leg else 0.0
+        part = 0.0
         if point.at_event:
             event = point.event
             part = -(event.change(h, r) + (0.0 if bound is None else _of_bound(event, bound))) / event.rate
@@ -287,31 +287,26 @@ def backward(
     passed: dict[InterfaceSystem, _Passed] = {}
     memory: Array | None = None  # (d - 1, n) of the active pairs of the system, scaled
     system: InterfaceSystem | None = None
-    moves = 0.0  # how the output changes with the part of the leg that is behind where the next piece begins
     for i in range(max(weights, default=-1), -1, -1):
         point, states = points[i], points[i].states
         if point.system is not system:
             memory, system = _handed(memory, system, point.system), point.system
             known = passed.setdefault(system, _Passed(system))
         assert memory is not None
-        moves = moves if i + 1 < len(points) and points[i + 1].leg == point.leg else 0.0
         h, r = np.zeros((2, system.directions, system.pairs))
         if i in weights:
             h, r = weights[i].h[:, system.active] / system.root, weights[i].r[:, system.active] * system.root
         h[1:] += memory
         memory = np.where(states.held, h[1:], 0.0)
         h[1:] -= memory
-        if h.any() or r.any() or moves or i in direct:
+        if h.any() or r.any() or i in direct:
             system.ahead((points[j].system, points[j].states) for j in range(i, -1, -1))
-            if point.at_event or point.follows:
-                h_rate, r_rate = _rates(point)
-                moves += float(np.vdot(h, h_rate) + np.vdot(r, r_rate))
             if point.at_event:
-                _through_event(point, h, r, known.bound, moves)
+                h_rate, r_rate = _rates(point)
+                _through_event(point, h, r, known.bound, float(np.vdot(h, h_rate) + np.vdot(r, r_rate)))
             free = system.respond_transposed(states, h, r)
             known.take(i, point, free, r[1:])
             memory += (h - free[: h.size].reshape(h.shape))[1:]
-        moves = moves if point.follows else 0.0
     stacks = tuple(one.stack(direct) for one in passed.values() if one.numbers)
     return Adjoint(stacks=stacks, bounds={system: one.bound for system, one in passed.items()})
 
