@@ -22,7 +22,7 @@ SHORT = 0.9
 _EARLY_GROWTH = 0.5  # of what is behind: what increments at the beginning may be,
 _EARLY_SHARE = 2.0**-4  # and of the shortest
 _DIGITS = 4  # binary ones of a length: by a sixteenth of it, or less, it may become shorter
-_ROUNDING = 1e-9  # of a place: what is so little short of the next one is there
+_PLACE_ROUNDING = 1e-9  # of a place: what is so little short of the next one is there
 
 
 def placed(length: float, behind: float, unit: float) -> float:
@@ -41,8 +41,8 @@ def placed(length: float, behind: float, unit: float) -> float:
     """
     if length <= 0.0:
         return length
-    cell = unit * 2.0 ** (math.floor(math.log2(length / unit) + _ROUNDING) - _DIGITS)
-    return cell * math.floor((behind + length) / cell + _ROUNDING) - behind
+    cell = unit * 2.0 ** (math.floor(math.log2(length / unit) + _PLACE_ROUNDING) - _DIGITS)
+    return cell * math.floor((behind + length) / cell + _PLACE_ROUNDING) - behind
 
 
 def early(shortest: float, behind: float) -> float:
