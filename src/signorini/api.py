@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from functools import partial
+import sys
+from functools import cache, partial
+from multiprocessing import parent_process
 from pathlib import Path
 
 from signorini.accuracy.refine import accurate, refuse_one_mesh
@@ -13,6 +15,7 @@ from signorini.engine.solve import raise_failure
 from signorini.engine.solve import solve as solve_history
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
+from signorini.linalg.multifrontal import FIRST_SOLVE, compiled
 from signorini.model.accuracy import Asked
 from signorini.model.model import Model
 from signorini.output.checkpoint import read_checkpoint
@@ -75,6 +78,7 @@ def solve(
     >>> sg.solve(model).contact("bottom").pressure.round(12)
     array([3., 3., 3.])
     """
+    tell_first_solve()
     refuse_one_mesh(accuracy, start=start is not None, tape=tape)
     kept = tape_of(start) if tape else None
     follow = partial(
@@ -89,6 +93,14 @@ def solve(
     )
     history = follow(model) if accuracy is None else accurate(model, accuracy, follow)
     return dressed(history, raise_on_failure, kept)
+
+
+@cache
+def tell_first_solve() -> None:
+    """Say where somebody reads it, on a terminal or in a notebook, that the first solve on a machine compiles; once."""
+    read = sys.stderr.isatty() or "ipykernel" in sys.modules
+    if read and parent_process() is None and not compiled():  # one of several processes would write into a bar
+        print(FIRST_SOLVE, file=sys.stderr)
 
 
 def _checkpoint(start: Start | None) -> Checkpoint | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from signorini.api import dressed
+from signorini.api import dressed, tell_first_solve
 from signorini.clock import Clock
 from signorini.derivative.function import AnswerFunction
 from signorini.engine.prepare import Prepared
@@ -109,4 +109,5 @@ def prepare(
     >>> print(light.contact("foundation").normal_force[1].round(9))
     19.5
     """
+    tell_first_solve()
     return PreparedModel(prepare_model(model, backend=backend, settings=settings, clock=clock).keeping())

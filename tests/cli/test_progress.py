@@ -2,14 +2,18 @@
 """What a terminal shows while something is solved."""
 
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
+import signorini as sg
+from signorini.api import tell_first_solve
 from signorini.cli.main import main
-from signorini.linalg.multifrontal import compiled
+from signorini.deck import load_deck
+from signorini.linalg.multifrontal import FIRST_SOLVE, compiled
 from signorini.linalg.registry import factorise
 
 DECK = Path(__file__).parents[2] / "examples" / "zhu_cylinder_frictionless.toml"
@@ -21,6 +25,33 @@ def test_the_first_solve_says_once_that_it_compiles(known, monkeypatch, capsys, 
     monkeypatch.setattr("signorini.cli.run_deck.compiled", lambda: known)
     assert main(["run", str(DECK), "-o", str(tmp_path / "out")]) == 0
     assert capsys.readouterr().err.count("compiling takes ten seconds, once") == (not known)
+
+
+@pytest.mark.parametrize("door", [sg.solve, sg.prepare])
+@pytest.mark.parametrize(
+    ("known", "terminal", "notebook", "worker", "lines"),
+    [
+        (False, True, False, False, 1),
+        (False, False, True, False, 1),
+        (False, False, False, False, 0),
+        (False, True, False, True, 0),
+        (True, True, True, False, 0),
+    ],
+)
+def test_python_says_it_where_somebody_reads_it(door, known, terminal, notebook, worker, lines, monkeypatch, capsys):
+    monkeypatch.setattr("sys.stderr.isatty", lambda: terminal, raising=False)
+    monkeypatch.setattr("signorini.api.compiled", lambda: known)
+    monkeypatch.setattr("signorini.api.parent_process", lambda: "main" if worker else None)
+    if notebook:
+        monkeypatch.setitem(sys.modules, "ipykernel", sys)
+    tell_first_solve.cache_clear()
+    model = load_deck(DECK).model
+    try:
+        for _ in range(2):
+            door(model)
+    finally:
+        tell_first_solve.cache_clear()
+    assert capsys.readouterr().err == f"{FIRST_SOLVE}\n" * lines
 
 
 def test_a_factorisation_leaves_compiled_loops_behind():

@@ -26,7 +26,7 @@ from signorini.distributed.ranks import PETSC
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.iterative.bodies import ITERATIVE
-from signorini.linalg.multifrontal import compiled
+from signorini.linalg.multifrontal import FIRST_SOLVE, compiled
 from signorini.linalg.registry import BACKENDS
 from signorini.linalg.threads import one_thread
 from signorini.model.accuracy import Accuracy, Asked
@@ -64,7 +64,7 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     start = _start(options.start)
     path = Path(options.folder) if options.folder else Path("out", deck.path.stem)
     first = not compiled()
-    note = "first solve on this machine: compiling takes ten seconds, once" if first else ""
+    note = FIRST_SOLVE if first else ""
     with own_folder(path, deck.path.name) as folder:
         quiet = options.quiet or options.json
         with _help(first), progress(quiet=quiet, seconds=clock.seconds, note=note, log=log) as clock:

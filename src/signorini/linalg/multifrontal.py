@@ -32,6 +32,8 @@ from signorini.linalg.shared_fronts import factorise_parts
 from signorini.linalg.system import System, as_columns, like
 from signorini.linalg.threads import one_thread
 
+FIRST_SOLVE = "first solve on this machine: compiling takes ten seconds, once"
+
 
 def compiled() -> bool:
     """Whether compiled loops are on disk, where the first factorisation after an installation leaves them."""
