@@ -21,7 +21,7 @@ SHORT = 0.9
 
 _EARLY_GROWTH = 0.5  # of what is behind: what increments at the beginning may be,
 _EARLY_SHARE = 2.0**-4  # and of the shortest
-_DIGITS = 4  # binary ones of a length: by a sixteenth of it, or less, it may become shorter
+_DIGITS = 7  # binary ones of a length: by a 128th of it, or less, it may become shorter
 _PLACE_ROUNDING = 1e-9  # of a place: what is so little short of the next one is there
 
 
@@ -37,7 +37,7 @@ def placed(length: float, behind: float, unit: float) -> float:
     Examples
     --------
     >>> placed(0.25, 0.5, 0.25), round(placed(0.24, 0.501, 1.0), 12), round(placed(0.24, 0.502, 1.0), 12)
-    (0.25, 0.233375, 0.232375)
+    (0.25, 0.239234375, 0.2392109375)
     """
     if length <= 0.0:
         return length
