@@ -125,6 +125,26 @@ def test_a_ball_in_space():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("load", [0.3, 2.5])
+def test_pressures_in_space_are_as_exact_as_asked(load):
+    """Beside Hertz' on circles of two sizes; most cells are within two radii, in a hundredth of the block."""
+    model = coarse.ball()
+    (rigid,) = model.obstacles
+    heavy = replace(rigid, force=(None, None, load * rigid.force[2]))
+    solution = sg.solve(replace(model, obstacles=[heavy]), accuracy=0.1)
+    found, contact, radius = solution.accuracy, solution.contact("seat"), load ** (1 / 3)
+    room = np.maximum(radius**2 - (contact.points[:, :2] ** 2).sum(axis=1), 0.0)
+    exact = 2.0 / np.pi * coarse.PLANE_MODULUS / 100.0 * np.sqrt(room)
+    true = np.sqrt((contact.area @ (contact.pressure - exact) ** 2) / (contact.area @ exact**2))
+    assert found.met
+    assert true <= 0.1
+    assert 0.7 <= found.pressure / true <= 2.0
+    mesh = solution.model.mesh
+    middles = mesh.points[mesh.cells["tetra10"][:, :4]].mean(axis=1)
+    assert np.mean(np.linalg.norm(middles, axis=1) < 2.0 * radius) > 0.5
+
+
+@pytest.mark.slow
 def test_axisymmetric_point_contact():
     """Steps to and fro, with friction, about an axis."""
     lines = np.array([0.0, 1.0, 2.5, 6.0])

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import time
 
-from signorini.accuracy.estimate import Estimate
+from signorini.accuracy.estimate import IN_SPACE, Estimate
 from signorini.accuracy.meshes import is_linear
 from signorini.memory import available_memory, peak_memory
 from signorini.model.accuracy import Accuracy
@@ -30,6 +30,10 @@ In space they are those of a circle of ten across, and of a quarter of one twice
 
 _MESHES = {"energy": 1, "pressure": 2, "traction": 2}
 """On which each has to be known, at least; outputs on three: their errors change sign."""
+
+_FALL_NEAR_CONTACT = 1.25
+"""Times the power of nodes with which errors in space fall otherwise: what those of pressures do, since cells
+are refined by how near they are to the contact."""
 
 _FILL = {2: 1.1, 3: 1.4}
 """Power of its nodes with which the memory of a mesh grows, in the plane and in space: its factor."""
@@ -69,9 +73,14 @@ class Bounds:
         """
         request = self._request
         rate = (1.0 if is_linear(model) else 2.0) / model.dimension  # power of nodes with which errors fall
+        if model.dimension == IN_SPACE and request.of in ("pressure", "traction"):
+            rate *= _FALL_NEAR_CONTACT
         needed = (min(found.of(request.of) / (SAFE_SHARE * request.error), 1e6)) ** (1.0 / rate)
         room = SHARE_OF_ROOM * request.nodes / len(model.mesh.points)
-        return min(max(needed, LEAST_GROWTH), MOST_GROWTH, room if room > SMALLEST_GROWTH else MOST_GROWTH)
+        least = (
+            LEAST_GROWTH if isinstance(request.of, str) else MOST_GROWTH
+        )  # of outputs changes have to tell something
+        return min(max(needed, least), MOST_GROWTH, room if room > SMALLEST_GROWTH else MOST_GROWTH)
 
     def end(self, nodes: int, more: int, levels: int) -> str:
         """Why no finer mesh is tried; empty: it is.

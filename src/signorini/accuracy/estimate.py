@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.accuracy.contacts import ContactErrors, level_errors, trace_errors
+from signorini.accuracy.influence import influence
 from signorini.accuracy.meshes import is_linear
 from signorini.accuracy.recovery import stress_error
 from signorini.arrays import Array
@@ -18,11 +19,15 @@ from signorini.plasticity.fields import by_family
 from signorini.solution.history import History
 
 LINEAR = 0.6
-"""Of the differences that are seen on linear cells: what their pressures lack. Stresses recovered from cells in which
-they are constant, and a mesh of twice the size, are farther from them than they are from the truth."""
+"""Of the differences that are seen on linear cells of the plane: what their pressures lack. Stresses recovered from
+cells in which they are constant, and a mesh of twice the size, are farther from them than they are from the truth."""
 
 HALF_AS_MUCH = 0.5
 """Of the error of the mesh before: with more what differs from it is no more than what is lacking."""
+
+
+IN_SPACE = 3
+"""Dimension in which cells far from a contact are many, and refined by what they count for it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,7 +38,8 @@ class Estimate:
     ----------
     pressure, traction, energy : relative, of the step where each is largest
     squares : (m,) of the energy norm of every cell, of all steps together, work
-    weights : (m,) by which cells are refined: these, or what they count for an output
+    weights : (m,) by which cells are refined: these, in space by what they count for pressures; or for an output
+    effect : sum of the weights for pressures
     pairs : that touch at the end of the step where most do
     value, output : of an output that is asked for, and its relative error
     """
@@ -43,6 +49,7 @@ class Estimate:
     energy: float
     squares: Array
     weights: Array
+    effect: float
     pairs: int
     value: float | None = None
     output: float | None = None
@@ -55,22 +62,28 @@ class Estimate:
         return found
 
 
-def estimate(history: History, before: tuple[Simplices, History] | None = None) -> Estimate:
+Before = tuple[Simplices, History, Estimate]
+"""The simplices that a history was solved on, and the history of the mesh before with its estimate."""
+
+
+def estimate(history: History, before: Before | None = None) -> Estimate:
     """What a history lacks at the ends of its steps.
 
     Parameters
     ----------
     history : solved
-    before : the simplices that it was solved on, and the history of the mesh before with its accuracy
+    before : the mesh before
     """
     model = history.model
     space = make_space(model.mesh, kind=model.kind)
     traced, carried, pairs = list[ContactErrors](), list[ContactErrors](), 0
     squares, lost, norms = np.zeros(model.mesh.number_of_cells), [0.0], [0.0]
+    weights = np.zeros(model.mesh.number_of_cells)
     for k, step in enumerate(history.steps):
         flowed = {} if step.plastic is None else by_family(space, model, step.plastic.state.strain)
         stress = stress_error(DeformedBodies.of(space, model, step.displacement, step.factors, flowed))
         squares += stress.squares
+        weights += stress.squares * (influence(model.mesh, step.contacts) if model.dimension == IN_SPACE else 1.0)
         lost.append(float(stress.squares.sum()))
         norms.append(stress.norm_square)
         traced.append(trace_errors(space, model, step.contacts, stress))
@@ -78,22 +91,29 @@ def estimate(history: History, before: tuple[Simplices, History] | None = None) 
             carried.append(level_errors(step.contacts, _carried(before, k)))
         pairs = max(pairs, sum(int(contact.closed.sum()) for contact in step.contacts))
     energy = float(np.sqrt(max(lost) / max(norms))) if max(norms) > 0.0 else 0.0
-    known = None if before is None else before[1].accuracy
-    found = traced + [one.scaled(_level_share(energy, known.energy)) for one in carried if known is not None]
-    size, share = max((one.scale for one in traced), default=0.0), LINEAR if is_linear(model) else 1.0
+    effect, share = float(weights.sum()), 1.0
+    if before is not None:
+        older = before[2]
+        in_space = model.dimension == IN_SPACE
+        share = _space_share(effect, older.effect) if in_space else _level_share(energy, older.energy)
+    found = traced + [one.scaled(share) for one in carried]
+    size, seen = max((one.scale for one in traced), default=0.0), 1.0
+    if is_linear(model) and model.dimension != IN_SPACE:
+        seen = LINEAR
     return Estimate(
-        pressure=share * _ratio(max((one.pressure for one in found), default=0.0), size),
-        traction=share * _ratio(max((one.pressure + one.friction for one in found), default=0.0), size),
+        pressure=seen * _ratio(max((one.pressure for one in found), default=0.0), size),
+        traction=seen * _ratio(max((one.pressure + one.friction for one in found), default=0.0), size),
         energy=energy,
         squares=squares,
-        weights=squares,
+        weights=weights,
+        effect=effect,
         pairs=pairs,
     )
 
 
-def _carried(before: tuple[Simplices, History], step: int) -> list[tuple[Array, Array]]:
+def _carried(before: Before, step: int) -> list[tuple[Array, Array]]:
     """Of every contact pressure and friction of the mesh before at the corners of this one."""
-    simplices, history = before
+    simplices, history, _ = before
     older = int((simplices.parents[:, 0] == simplices.parents[:, 1]).sum())
     found = []
     for contact in history.steps[step].contacts:
@@ -113,6 +133,20 @@ def _level_share(energy: float, before: float) -> float:
     """
     fall = energy / before if before > 0.0 else 1.0
     return (fall / (1.0 - fall)) ** 2 if fall < HALF_AS_MUCH else 1.0
+
+
+def _space_share(effect: float, before: float) -> float:
+    """Of the square of the difference from the mesh before in space: what this one lacks of it.
+
+    With q the ratio of what they lack it is q of the difference where errors of two meshes have nothing in common, as
+    those of many cells along the end of a contact, ``q / (1 - q)`` where they have all: the mean of both, that of a
+    product.
+
+    Parameters
+    ----------
+    effect, before : squares of errors of stresses, by what they count for the pressures
+    """
+    return min(effect / (before - np.sqrt(effect * before)), 1.0) if effect < before else 1.0
 
 
 def _ratio(square: float, scale: float) -> float:

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import cast
 
 import numpy as np
 
 from signorini.accuracy.estimate import Estimate
+from signorini.accuracy.output_error import OutputLevel, output_error
 from signorini.accuracy.recovery import stress_error
 from signorini.arrays import Array
 from signorini.derivative.derivative import TapedHistory
@@ -22,75 +23,78 @@ from signorini.meshing.simplices import corner_numbers
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
 from signorini.model.outputs import AtNode, Displacement, Dissipation, Mean, Output, Peak, Stress, WeightedSum
-from signorini.solution.accuracy import MeshLevel
 
 _WHERE = ("accuracy", "of")
 
 
-def with_output(
-    found: Estimate, levels: Sequence[MeshLevel], model: Model, tape: Tape | None, output: Output
-) -> Estimate:
-    """An estimate with what is asked for: an output, its error, and cells by what their errors count for it.
-
-    Half of a cell's share is that of its stresses, since what is lost at the end of a contact no dual stress tells.
+class Goal:
+    """An output that is to be accurate, on mesh after mesh.
 
     Parameters
     ----------
-    found : without it
-    levels : of the meshes before
-    model, tape : that was solved, and its history
-    output : on the corners of the mesh
-
-    Raises
-    ------
-    InputError
-        By name, what derivatives do not know.
+    output : on the corners of the mesh to begin with
     """
-    assert tape is not None
-    value, products = _goal(model, tape, output)
-    values = [*(float("nan") if level.value is None else level.value for level in levels), value]
-    nodes = [*(level.nodes for level in levels), len(model.mesh.points)]
-    lacks = _lacks(values, nodes, float(products.sum()))
-    shares = [part / part.sum() for part in (products, found.squares) if part.sum() > 0.0]
-    return replace(
-        found,
-        value=value,
-        output=lacks / abs(value) if value and np.isfinite(value) else float("inf"),
-        weights=sum(shares, np.zeros(len(products))),
-    )
 
+    def __init__(self, output: Output) -> None:
+        self._output, self._levels = output, list[OutputLevel]()
 
-def _goal(model: Model, tape: Tape, output: Output) -> tuple[float, Array]:
-    """An output, and of every cell the product of its errors in energy, of stresses and of dual ones."""
-    view = TapedHistory(tape, model).view
-    try:
-        found, dual = value(output, view), dual_displacement(view, output)
-    except InputError:  # nothing presses yet, or in one place alone
-        return float("nan"), np.zeros(model.mesh.number_of_cells)
-    i, nodes = view.number(output.load_factor), len(model.mesh.points)
-    squares = [
-        stress_error(DeformedBodies.of(view.space, model, view.space.at_nodes(u)[:nodes], factors)).squares
-        for u, factors in ((view.displacement(i), view.points[i].load.factors), (dual, {}))
-    ]
-    return found, np.sqrt(squares[0] * squares[1])
+    def estimated(self, found: Estimate, model: Model, tape: Tape | None) -> Estimate:
+        """An estimate with what is asked for: the output, its error, and cells by what their errors count for it.
 
+        Half of a cell's share is that of its stresses, since what is lost at the end of a contact no dual stress tells.
 
-def _lacks(values: Sequence[float], nodes: Sequence[int], products: float) -> float:
-    """Estimated error of an output, of its own kind.
+        Parameters
+        ----------
+        found : without it
+        model, tape : that was solved, and its history
 
-    The largest of: what errors of stresses come to, all of one sign; what is left of what the last mesh has changed,
-    where errors fall with the number of nodes; and the same of the mesh before that.
+        Raises
+        ------
+        InputError
+            By name, what derivatives do not know.
+        """
+        assert tape is not None
+        value, products, signed = self._products(model, tape)
+        self._levels.append(
+            OutputLevel(
+                value=value,
+                nodes=len(model.mesh.points),
+                signed=signed,
+                products=float(products.sum()),
+            )
+        )
+        lacks = output_error(self._levels)
+        shares = [part / part.sum() for part in (products, found.squares) if part.sum() > 0.0]
+        return replace(
+            found,
+            value=value,
+            output=lacks / abs(value) if value and np.isfinite(value) else float("inf"),
+            weights=sum(shares, np.zeros(len(products))),
+        )
 
-    Parameters
-    ----------
-    values, nodes : on all meshes so far
-    products : sum over the cells of errors of stresses and of dual ones
-    """
-    found = [products]
-    for i in range(max(len(values) - 2, 1), len(values)):
-        growth = nodes[i] / nodes[i - 1]
-        found.append(abs(values[i] - values[i - 1]) / max(growth - 1.0, 0.5) * nodes[i] / nodes[-1])
-    return max(found) if np.isfinite(found).all() and len(values) > 1 else float("inf")
+    def _products(self, model: Model, tape: Tape) -> tuple[float, Array, float]:
+        """The output, of every cell the product of its errors of stresses and of dual ones in energy, and their work.
+
+        The work of two errors is half of what that of their sum has more than they have: one of them is scaled, so that
+        neither is lost in rounding.
+        """
+        view, output = TapedHistory(tape, model).view, self._output
+        try:
+            found, dual = value(output, view), dual_displacement(view, output)
+        except InputError:  # nothing presses yet, or in one place alone
+            return float("nan"), np.zeros(model.mesh.number_of_cells), 0.0
+        point = view.points[view.number(output.load_factor)]
+        motion = view.displacement(view.number(output.load_factor))
+
+        def squares(u: Array, factors: Mapping[str, float]) -> Array:
+            at_nodes = view.space.at_nodes(u)[: len(model.mesh.points)]
+            return stress_error(DeformedBodies.of(view.space, model, at_nodes, factors)).squares
+
+        own, of_dual = squares(motion, point.load.factors), squares(dual, {})
+        scale = float(np.sqrt(own.sum() / of_dual.sum())) if own.any() and of_dual.any() else 1.0
+        both = squares(motion + scale * dual, point.load.factors)
+        work = float((both - own - scale**2 * of_dual).sum()) / (2.0 * scale)
+        return found, np.sqrt(own * of_dual), work
 
 
 def named(output: Output, model: Model) -> Output:

@@ -57,21 +57,21 @@ def _refined(model: Model, request: Accuracy, solve: Callable[..., History]) -> 
     """On finer and finer meshes, until errors are below what was asked, or a bound ends it."""
     meshes, bounds = RefinedMeshes(model, request), Bounds(request, model.dimension)
     posed, levels, known = meshes.first(), list[MeshLevel](), None
-    output = None
+    goal, before = None, None
     if isinstance(request.of, Output):
-        from signorini.accuracy.goals import named, on_corners, with_output  # brings derivatives with it
+        from signorini.accuracy.goals import Goal, named, on_corners  # brings derivatives with it
 
         told = named(request.of, model)
-        request, output = replace(request, of=told), on_corners(told, model.mesh)
+        request, goal = replace(request, of=told), Goal(on_corners(told, model.mesh))
     while True:
-        begun, tape = time.perf_counter(), None if output is None else Tape()
+        begun, tape = time.perf_counter(), None if goal is None else Tape()
         try:
             history = solve(posed, tape=tape)
             if not history.solved:
                 return history if known is None else _interrupted(known, history)
-            found = estimate(history, None if known is None else (meshes.simplices, known))
-            if output is not None:
-                found = with_output(found, levels, posed, tape, output)
+            found = estimate(history, before)
+            if goal is not None:
+                found = goal.estimated(found, posed, tape)
         except InputError as error:
             if known is None or known.accuracy is None:
                 raise
@@ -80,13 +80,14 @@ def _refined(model: Model, request: Accuracy, solve: Callable[..., History]) -> 
         met, reason = bounds.met(found, len(levels)), ""
         if not met:
             nodes = len(posed.mesh.points)
-            posed = meshes.next(found.weights, bounds.growth(found, posed))
+            posed = meshes.next(found.squares if request.of == "energy" else found.weights, bounds.growth(found, posed))
             reason = bounds.end(nodes, len(posed.mesh.points), len(levels))
             if reason and len(levels) == 1 and found.of(request.of) <= request.error:
                 reason = f"it is estimated on one mesh alone: {reason}"
         known = replace(history, accuracy=_result(found, tuple(levels), request, reason, meshes.notes))
         if met or reason:
             return known
+        before = meshes.simplices, known, found
 
 
 def _interrupted(known: History, history: History) -> History:
