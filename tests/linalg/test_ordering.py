@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import sparse
 
+from signorini import cores
 from signorini.errors import InputError
 from signorini.linalg import factorise, ordering
 from signorini.linalg.ordering import ORDERED_BY_METIS, nested_dissection
@@ -65,6 +66,20 @@ def test_work_beside_metis(shape, degrees, most):
     points[:, :2] = points[:, :2] @ np.array([[c, s], [-s, c]])
     system = checked_system(body.K, body.interface, body.nodes, points)
     assert analyse(system).flops <= most * analyse(replace(system, points=None)).flops
+
+
+@pytest.mark.parametrize("shape", [(70, 60), (13, 12, 11)])
+def test_pieces_side_by_side_give_the_order_of_the_whole(shape, monkeypatch):
+    """Whatever the number of threads; pieces above and below the size from which fewer directions are tried."""
+    body = lattice(shape)
+    graph = node_graph(checked_system(body.K, body.interface, body.nodes, places(body)))
+    monkeypatch.setattr(ordering, "ORDERED_BY_METIS", 0)
+    monkeypatch.setattr(ordering, "SHARED_PIECE", graph.interior)
+    whole = nested_dissection(graph)
+    monkeypatch.setattr(ordering, "SHARED_PIECE", 150)
+    for number in (1, 2, 5):
+        with cores.threads(number):
+            assert np.array_equal(nested_dissection(graph), whole)
 
 
 def test_a_node_that_touches_all_others():

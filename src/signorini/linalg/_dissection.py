@@ -57,19 +57,19 @@ class Moves(NamedTuple):
     used: IntArray
 
 
-@kernel()
-def dissect(graph: Graph, along: Int32Array, first: int) -> Int32Array:
-    """Order the vertices of a graph so that few entries fill in.
+@kernel(nogil=True)
+def dissect(graph: Graph, along: Int32Array, first: int, whole: int) -> tuple[Int32Array, Int32Array]:
+    """Order the vertices of a graph so that few entries fill in; give the order, and where each of its pieces ends.
 
     Parameters
     ----------
     graph : of n vertices, without loops
-    along : (k, n) the vertices in their order along every direction
+    along : (k, n) the vertices in their order along every direction; overwritten by that in every piece
     first : how many of the directions are for pieces of any size; the others for `AXES_SIZE` ones
+    whole : vertices of pieces that are not cut: up to it
     """
     directions, n = along.shape
-    along = along.copy()
-    order = np.empty(n, np.int32)
+    order, ends = np.empty(n, np.int32), np.zeros(n, np.int32)
     label, place = np.zeros(n, np.int32), np.empty(n, np.int32)
     separator, other = np.empty(n, np.int32), np.empty(n, np.int32)
     difference = np.empty((2, n + 2), np.int32)
@@ -86,8 +86,10 @@ def dissect(graph: Graph, along: Int32Array, first: int) -> Int32Array:
         left -= 1
         low, high = waiting[0, left], waiting[1, left]
         size = high - low
-        if size <= LEAF_SIZE:
+        if size <= whole:
             _copy(along[0, low:high], order[low:high])
+            if size > 0:
+                ends[low] = high
             continue
         for v in along[0, low:high]:
             label[v] = base
@@ -111,7 +113,7 @@ def dissect(graph: Graph, along: Int32Array, first: int) -> Int32Array:
         waiting[0, left + 1], waiting[1, left + 1] = low + near, high - count
         left += 2
         base += 3
-    return order
+    return order, ends
 
 
 @part()

@@ -137,6 +137,32 @@ def subgraph(graph: Graph, count: int) -> Graph:
     return Graph(rows, columns[:top].copy())
 
 
+@kernel(nogil=True)
+def induced(graph: Graph, members: Int32Array, number: Int32Array) -> Graph:
+    """Keep some vertices, numbered anew, and the edges between them.
+
+    Parameters
+    ----------
+    graph : of n vertices
+    members : which ones, in their new order
+    number : (n,) their new numbers, -1 for the others
+    """
+    indptr, indices = graph
+    rows = np.zeros(len(members) + 1, np.int32)
+    most = 0
+    for v in members:
+        most += indptr[v + 1] - indptr[v]
+    columns = np.empty(most, np.int32)
+    top = 0
+    for i in range(len(members)):
+        for p in range(indptr[members[i]], indptr[members[i] + 1]):
+            if number[indices[p]] >= 0:
+                columns[top] = number[indices[p]]
+                top += 1
+        rows[i + 1] = top
+    return Graph(rows, columns[:top])
+
+
 @part()
 def sort_lists(begin: IntArray, entry: Int32Array, vertices: int) -> None:
     """Sort every list ``entry[begin[s]:begin[s + 1]]`` of vertices: by buckets, in linear time."""

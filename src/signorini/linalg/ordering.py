@@ -4,18 +4,25 @@
 from __future__ import annotations
 
 import itertools
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 import pymetis
 
 from signorini.arrays import Array, Int32Array
-from signorini.linalg._dissection import dissect
-from signorini.linalg._graph import subgraph
+from signorini.cores import number_of_threads
+from signorini.linalg._dissection import AXES_SIZE, LEAF_SIZE, dissect
+from signorini.linalg._graph import Graph, induced, subgraph
+from signorini.linalg.crew import Crew
 from signorini.linalg.system import NodeGraph
 
 ORDERED_BY_METIS = 4096
 """Nodes up to which METIS orders though their places are known: at most ten milliseconds more, and by size alone, so
 that an answer has the same digits whatever has been compiled before."""
+
+SHARED_PIECE = 20_000
+"""Nodes above which a piece is cut by itself, so that threads share what it leaves: tens of milliseconds of one."""
 
 
 def nested_dissection(graph: NodeGraph) -> Int32Array:
@@ -40,10 +47,62 @@ def nested_dissection(graph: NodeGraph) -> Int32Array:
         return np.arange(graph.interior, dtype=np.int32)
     if graph.points is not None and graph.interior > ORDERED_BY_METIS:
         axes, diagonals = _directions(graph.points[: graph.interior])
-        along = np.argsort(np.concatenate([axes, diagonals]), axis=1, kind="stable").astype(np.int32)
-        return dissect(inside, along, len(axes))
+        with Crew(number_of_threads() if graph.interior > SHARED_PIECE else 1) as crew:
+            sorts = [partial(np.argsort, direction, kind="stable") for direction in (*axes, *diagonals)]
+            return _dissected(inside, np.array(crew.each(sorts), dtype=np.int32), len(axes), crew)
     order, _ = pymetis.nested_dissection(pymetis.CSRAdjacency(*inside))
     return np.asarray(order, dtype=np.int32)
+
+
+class _Piece(NamedTuple):
+    """A part of a graph that is dissected by itself.
+
+    Attributes
+    ----------
+    begin : place of its first vertex in the order
+    vertices : of the whole graph, ascending
+    graph, along : see `dissect`, in numbers of its own
+    """
+
+    begin: int
+    vertices: Int32Array
+    graph: Graph
+    along: Int32Array
+
+
+def _dissected(graph: Graph, along: Int32Array, first: int, crew: Crew) -> Int32Array:
+    """What `dissect` gives, by pieces side by side: large ones are cut once and are two pieces then."""
+    count = len(graph.indptr) - 1
+    order = np.empty(count, np.int32)
+    pieces = [_Piece(0, np.arange(count, dtype=np.int32), graph, along)]
+    while pieces:
+        found = crew.each([partial(_cut, piece, first, order) for piece in pieces])
+        pieces = list(itertools.chain.from_iterable(found))
+    return order
+
+
+def _cut(piece: _Piece, first: int, order: Int32Array) -> list[_Piece]:
+    """Cut a large piece once, and give what it leaves; order the vertices of others.
+
+    Parameters
+    ----------
+    piece, first : what is cut; see `dissect`
+    order : overwritten where the piece stands in it
+    """
+    count = len(piece.vertices)
+    large = count > SHARED_PIECE
+    own, ends = dissect(piece.graph, piece.along, first, count - 1 if large else LEAF_SIZE)
+    order[piece.begin : piece.begin + count] = piece.vertices[own]
+    left = []
+    for low in np.flatnonzero(ends).tolist() if large else []:
+        members = np.sort(own[low : ends[low]])
+        number = np.full(count, -1, np.int32)
+        number[members] = np.arange(len(members), dtype=np.int32)
+        along = piece.along if count > AXES_SIZE else piece.along[:first]
+        along = np.ascontiguousarray(number[along[:, low : ends[low]]])
+        graph = induced(piece.graph, members, number)
+        left.append(_Piece(piece.begin + low, piece.vertices[members], graph, along))
+    return left
 
 
 def _directions(points: Array) -> tuple[Array, Array]:
