@@ -33,6 +33,7 @@ BASE = {
     "clock",
     "compilation",
     "cores",
+    "crew",
     "doors",
     "meshio_fixes",
     "hdf5",

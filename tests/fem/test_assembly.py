@@ -7,7 +7,9 @@ import skfem
 from skfem.helpers import ddot, sym_grad, trace
 from skfem.models.elasticity import linear_elasticity
 
+from signorini import cores
 from signorini.errors import InputError
+from signorini.fem import assembly
 from signorini.fem.assembly import Cells, stiffness
 from signorini.fem.elasticity import isotropic, law_tensor
 
@@ -133,6 +135,24 @@ def test_blocks_share_one_pattern():
     assert same(K[n:-2, n:-2], stiffness(far, squares, stiff))
     assert K[:n, n:].nnz == 0
     assert np.diff(K.indptr)[-2:].tolist() == [0, 0]
+
+
+@pytest.mark.parametrize("name", ["quad8", "hex8"])
+def test_every_number_of_threads_gives_the_same_bits(name, monkeypatch):
+    """Cells in any order, of which some have nodes of several shares; the first bad one is named whoever finds it."""
+    mesh, element = ELEMENTS[name]
+    points, cells, own = cells_of(mesh, element, lame_lambda=1.3, lame_mu=0.7)
+    cells = cells._replace(nodes=np.random.default_rng(3).permutation(cells.nodes))
+    alone = stiffness(points, cells, own)
+    flat = cells._replace(nodes=np.where(np.arange(len(cells.nodes))[:, None] % 4 == 1, 0, cells.nodes))
+    monkeypatch.setattr(assembly, "SHARED_CELLS", 2)
+    for number in (1, 2, 3, 7):
+        with cores.threads(number):
+            shared = stiffness(points, cells, own)
+            assert np.array_equal(shared.data, alone.data)
+            assert np.array_equal(shared.indices, alone.indices)
+            with pytest.raises(InputError, match="element 1 of block 0"):
+                stiffness(points, flat, own)
 
 
 def test_either_orientation():

@@ -9,9 +9,9 @@ import pytest
 
 from signorini import cores
 from signorini.cli import main
+from signorini.crew import Crew, Job
 from signorini.errors import InputError
 from signorini.linalg import NotPositiveDefinite, factorise, plan, schedule
-from signorini.linalg.crew import Crew, Job
 from tests.helpers.lattices import dense_schur, lattice, together
 
 PROBLEMS = {

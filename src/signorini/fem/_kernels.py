@@ -139,8 +139,23 @@ class SparsityPattern(NamedTuple):
     data: Array
 
 
-@kernel()
-def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPattern) -> tuple[int, int]:
+class Share(NamedTuple):
+    """What one thread adds: the rows of some nodes.
+
+    Attributes
+    ----------
+    cells : elements that have any of them, ascending
+    of : (N,) the share of every node
+    number : which one
+    """
+
+    cells: Int32Array
+    of: Int32Array
+    number: int
+
+
+@kernel(nogil=True)
+def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPattern, own: Share) -> tuple[int, int]:
     """Add the stiffness of the elements of one kind; give (-1, 0), or the first bad element and what is wrong with it.
 
     The products ``C = sum_q w g g^T`` of all gradient components are summed first, which is one rank-one update per
@@ -152,6 +167,7 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
     points : (N, d) of all nodes, length
     elements, laws : of one kind, arrays of full shapes
     pattern : added to
+    own : rows that are added to
     """
     cells, gradients, weights, material, measure, values, modes, pressures = elements
     entries, law, bulk, c = laws
@@ -166,7 +182,7 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
     J, I = np.zeros((3, 3)), np.empty((3, 3))  # noqa: E741
     J[2, 2] = 1.0  # of meshes in the plane, which leave the last row and column
     divergence, volume = np.zeros((len(weights), nodes * c)), np.empty(len(weights))
-    for t in range(len(cells)):
+    for t in own.cells:
         for a in range(nodes):
             for r in range(d):
                 x[a, r] = points[cells[t, a], r]
@@ -206,7 +222,9 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
         _eliminate(K, nodes * c)
         if pressures.shape[1]:
             _project(K, divergence, volume, pressures, bulk[material[t]])
-        scatter(K, cells[t], c, rows, columns, data)
+        for a in range(nodes):
+            if own.of[cells[t, a]] == own.number:
+                _scatter_rows(K, cells[t], a, c, rows, columns, data)
     return -1, 0
 
 
@@ -323,16 +341,22 @@ def scatter(K: Array, cell: IntArray, d: int, rows: IntArray, columns: IntArray,
     data : entries, d unknowns a node
     """
     for a in range(len(cell)):
-        low, high = rows[cell[a]], rows[cell[a] + 1]
-        for b in range(len(cell)):
-            p, end = low, high
-            while p < end:
-                middle = (p + end) >> 1
-                if columns[middle] < cell[b]:
-                    p = middle + 1
-                else:
-                    end = middle
-            for r in range(d):
-                at = d * d * low + r * d * (high - low) + d * (p - low)
-                for s in range(d):
-                    data[at + s] += K[a * d + r, b * d + s]
+        _scatter_rows(K, cell, a, d, rows, columns, data)
+
+
+@part()
+def _scatter_rows(K: Array, cell: IntArray, a: int, d: int, rows: IntArray, columns: IntArray, data: Array) -> None:
+    """Add the rows of one of its nodes."""
+    low, high = rows[cell[a]], rows[cell[a] + 1]
+    for b in range(len(cell)):
+        p, end = low, high
+        while p < end:
+            middle = (p + end) >> 1
+            if columns[middle] < cell[b]:
+                p = middle + 1
+            else:
+                end = middle
+        for r in range(d):
+            at = d * d * low + r * d * (high - low) + d * (p - low)
+            for s in range(d):
+                data[at + s] += K[a * d + r, b * d + s]

@@ -12,17 +12,23 @@ exists.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
 
 from signorini.arrays import Array, Int32Array
+from signorini.cores import number_of_threads
+from signorini.crew import Crew
 from signorini.errors import InputError
 from signorini.fem import _kernels
 from signorini.fem._kernels import Cells
 
 __all__ = ["Cells", "stiffness"]
+
+SHARED_CELLS = 10_000
+"""Elements from which threads share an assembly: tens of milliseconds of one thread."""
 
 
 def stiffness(
@@ -87,6 +93,8 @@ def stiffness(
         c,
     )
     pattern = _kernels.SparsityPattern(rows, columns, data)
+    threads = number_of_threads() if len(sizes) > SHARED_CELLS else 1
+    of = _shares(points, threads)
     for number, (block, cells) in enumerate(zip(blocks, nodes, strict=True)):
         at = (len(cells), len(block.weights))
         made = Cells(
@@ -99,10 +107,29 @@ def stiffness(
             modes=np.ascontiguousarray(block.modes) if block.modes.size else np.empty((*at, 0, e)),
             pressures=block.pressures if block.pressures.size else np.empty((at[1], 0)),
         )
-        element, wrong = _kernels.add_block(points, made, laws, pattern)
-        if wrong:
+        with Crew(threads) as crew:
+            adds = [partial(_add_share, points, made, laws, pattern, of, share) for share in range(threads)]
+            bad = [(element, wrong) for element, wrong in crew.each(adds) if wrong]
+        if bad:
+            element, wrong = min(bad)
             raise InputError(_complaint(element, number, wrong, points[cells[element]]))
     return sparse.csr_array((data, indices, indptr), shape=(count * c, count * c))
+
+
+def _shares(points: Array, number: int) -> Int32Array:
+    """Share the nodes, (N,): slabs across the longest side of the mesh, of about as many nodes each."""
+    along = points[:, np.ptp(points, axis=0).argmax()] if len(points) else np.zeros(0)
+    bounds = np.quantile(along, np.arange(1, number) / number) if len(along) else np.zeros(0)
+    return np.searchsorted(bounds, along, side="right").astype(np.int32)
+
+
+def _add_share(
+    points: Array, elements: Cells, laws: _kernels.Laws, pattern: _kernels.SparsityPattern, of: Int32Array, share: int
+) -> tuple[int, int]:
+    """Add the rows of the nodes of a share, in the order of the elements, however many shares there are."""
+    owners = of[elements.nodes]
+    cells = np.flatnonzero((owners.min(axis=1) <= share) & (share <= owners.max(axis=1))).astype(np.int32)
+    return _kernels.add_block(points, elements, laws, pattern, _kernels.Share(cells, of, share))
 
 
 def _nodes(block: Cells, points: Array, number: int) -> Int32Array:

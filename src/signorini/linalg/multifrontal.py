@@ -22,10 +22,10 @@ from scipy import sparse
 
 from signorini.arrays import Array, Int32Array
 from signorini.cores import number_of_threads
+from signorini.crew import Crew
 from signorini.linalg import _front_products, _front_solves, _fronts
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination, Rows
-from signorini.linalg.crew import Crew
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.plan import Plan, Plans, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced

@@ -12,9 +12,9 @@ import pymetis
 
 from signorini.arrays import Array, Int32Array
 from signorini.cores import number_of_threads
+from signorini.crew import Crew
 from signorini.linalg._dissection import AXES_SIZE, LEAF_SIZE, dissect
 from signorini.linalg._graph import Graph, induced, subgraph
-from signorini.linalg.crew import Crew
 from signorini.linalg.system import NodeGraph
 
 ORDERED_BY_METIS = 4096

@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from signorini.arrays import Array, Int32Array
+from signorini.crew import Crew, Job
 from signorini.linalg import _front_tiles, _fronts, _symbolic
 from signorini.linalg._blas import StoredMatrix, scratch
 from signorini.linalg._fronts import Stacks, Tree
-from signorini.linalg.crew import Crew, Job
 from signorini.linalg.plan import Fronts, Part, Plan
 from signorini.linalg.schedule import FrontTask, tasks
 
