@@ -13,11 +13,20 @@ from pathlib import Path
 from typing import Any
 
 PAGE = Path(__file__).parent.parent / "docs" / "performance.md"
-ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
-ONE_THREAD["MKL_THREADING_LAYER"] = "SEQUENTIAL"  # one thread of the other layer spins beside the one that works
 KEEP_MEMORY = {"MALLOC_MMAP_MAX_": "0", "MALLOC_TRIM_THRESHOLD_": str(10**12)}
 """The C library's settings to hand no memory back: otherwise whichever solve comes after a long pause pays for new
 pages, which on a virtual machine cost as much as the computing. All codes gain."""
+
+
+def thread_environment(number: int) -> dict[str, str]:
+    """Environment variables that give every library so many threads."""
+    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+    made = dict.fromkeys(names, str(number))
+    # one thread of MKL's other layer spins beside the one that works
+    return made | ({"MKL_THREADING_LAYER": "SEQUENTIAL"} if number == 1 else {})
+
+
+ONE_THREAD = thread_environment(1)
 
 
 def measured(module: str, *options: object, keep: bool = True) -> list[dict[str, Any]]:

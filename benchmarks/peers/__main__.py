@@ -16,14 +16,13 @@ import numpy as np
 from benchmarks import command, page
 from benchmarks.peers import run_calculix, run_getfem, run_signorini
 from benchmarks.peers.case import Case, cylinder_case
-from benchmarks.peers.result import Result
+from benchmarks.peers.result import Result, middle
 from signorini.arrays import Array
 from signorini.linalg.pardiso import available
 
 FRICTION = (0.0, 0.4)
 FINE = 2
 """The refined values are those of signorini on a mesh with every edge of the finest one divided by it."""
-REPEATS, LONG = 3, 20.0
 HEAD = (
     "code",
     "unknowns",
@@ -66,20 +65,12 @@ def _all(case: Case, refine: int, mu: float) -> list[Result]:
     for missing, run in codes:
         reason = missing()
         if reason is None:
-            results.append(_median(partial(run, case, mu)))
+            results.append(middle(partial(run, case, mu)))
     for backend in ("multifrontal", *(["pardiso"] if available() else [])):
         results.append(run_signorini.run(case, refine, mu, backend))
     for result in results:
         print(f"{result.code}, {2 * len(case.points)} unknowns, mu {mu}: {result.solve_seconds:.2f} s", flush=True)
     return results
-
-
-def _median(run: Callable[[], Result]) -> Result:
-    """The run in the middle of REPEATS, of fewer where they are long."""
-    runs = [run()]
-    while len(runs) < REPEATS and sum(result.solve_seconds for result in runs) < LONG:
-        runs.append(run())
-    return sorted(runs, key=lambda result: result.solve_seconds)[(len(runs) - 1) // 2]
 
 
 def _row(result: Result, case: Case, mu: float, fine: Case, refined: Array) -> list[object]:

@@ -11,12 +11,13 @@ import os
 import shutil
 import subprocess
 import tempfile
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
-from benchmarks.page import KEEP_MEMORY, ONE_THREAD, peak_memory
+from benchmarks.page import KEEP_MEMORY, peak_memory, thread_environment
 from benchmarks.peers.case import Case, write_calculix
 from benchmarks.peers.result import Result
 from signorini.arrays import Array, IntArray
@@ -39,13 +40,13 @@ def missing() -> str | None:
     return None
 
 
-def run(case: Case, friction: float) -> Result:
+def run(case: Case, friction: float, threads: int = 1) -> Result:
     """One increment; input, assembly and the rest in CPU seconds."""
     with tempfile.TemporaryDirectory() as folder:
-        return _run(case, friction, Path(folder))
+        return _run(case, friction, Path(folder), threads)
 
 
-def _run(case: Case, friction: float, folder: Path) -> Result:
+def _run(case: Case, friction: float, folder: Path, threads: int) -> Result:
     write_calculix(case, folder / "cylinder.inp", friction=friction)
     unbuffered = {"GFORTRAN_UNBUFFERED_PRECONNECTED": "y"}
     process = subprocess.Popen(
@@ -54,20 +55,23 @@ def _run(case: Case, friction: float, folder: Path) -> Result:
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        env={**os.environ, **ONE_THREAD, **KEEP_MEMORY, **unbuffered},
+        env={**os.environ, **thread_environment(threads), **KEEP_MEMORY, **unbuffered},
     )
     assert process.stdout is not None
     seconds = {"input": 0.0, "assembly": 0.0, "solve": 0.0}
     phase, before, iterations, memory, finished = "input", 0.0, 0, 0, False
+    begun = time.perf_counter()
     for line in process.stdout:
         iterations += line.startswith(" iteration")
         finished |= "Job finished" in line
         for words, following in PHASES.items():
             if words in line:
                 now, memory = _cpu(process.pid), peak_memory(process.pid)
+                begun = time.perf_counter() if phase == "input" else begun
                 seconds[phase] += now - before
                 phase, before = following, now
     _, code, usage = os.wait4(process.pid, 0)
+    wall = time.perf_counter() - begun
     process.returncode = os.waitstatus_to_exitcode(code)
     seconds[phase] += usage.ru_utime + usage.ru_stime - before
     if process.returncode or not finished:
@@ -77,6 +81,7 @@ def _run(case: Case, friction: float, folder: Path) -> Result:
         input_seconds=seconds["input"],
         assembly_seconds=seconds["assembly"],
         solve_seconds=seconds["solve"],
+        wall_seconds=wall,
         iterations=iterations,
         memory=memory,
         pressure=_pressures(folder / "cylinder.frd", case.arc_nodes),

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.page import KEEP_MEMORY, ONE_THREAD
+from benchmarks.page import KEEP_MEMORY, thread_environment
 from benchmarks.peers.case import Case, write_arrays
 from benchmarks.peers.result import Result
 
@@ -28,19 +28,19 @@ def missing() -> str | None:
     return None if found.returncode == 0 else f"GetFEM skipped: {PYTHON} cannot import it (Debian: python3-getfem)"
 
 
-def run(case: Case, friction: float) -> Result:
+def run(case: Case, friction: float, threads: int = 1) -> Result:
     """One increment; the elastic body is assembled once, before the solve, contact terms in every Newton step."""
     with tempfile.TemporaryDirectory() as folder:
-        return _run(case, friction, Path(folder))
+        return _run(case, friction, Path(folder), threads)
 
 
-def _run(case: Case, friction: float, folder: Path) -> Result:
+def _run(case: Case, friction: float, folder: Path, threads: int) -> Result:
     write_arrays(case, folder / "cylinder.npz")
     done = subprocess.run(
         [PYTHON, str(SCRIPT), str(folder / "cylinder.npz"), str(friction)],
         capture_output=True,
         text=True,
-        env=environment(),
+        env=environment(threads),
         check=False,
     )
     if done.returncode:
@@ -51,13 +51,14 @@ def _run(case: Case, friction: float, folder: Path) -> Result:
         input_seconds=found["input_seconds"],
         assembly_seconds=found["assembly_seconds"],
         solve_seconds=found["solve_seconds"],
+        wall_seconds=found["wall_seconds"],
         iterations=found["iterations"],
         memory=found["memory"],
         pressure=np.array(found["forces"]) / case.arc_lengths,
     )
 
 
-def environment() -> dict[str, str]:
-    """One thread, and none of this Python's packages."""
+def environment(threads: int = 1) -> dict[str, str]:
+    """So many threads, and none of this Python's packages."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
-    return kept | ONE_THREAD | KEEP_MEMORY
+    return kept | thread_environment(threads) | KEEP_MEMORY
