@@ -11,7 +11,7 @@ import pytest
 
 from signorini import cores
 from signorini.cli import main
-from signorini.linalg import plan, shared_fronts, threads
+from signorini.linalg import plan, schedule, threads
 from signorini.output.dataclasses_json import unsealed
 
 SPACE = """\
@@ -103,7 +103,7 @@ def test_a_run_gives_the_same_bytes_whatever_the_threads(
     if deck == "plane" and backend == "iterative":
         path.write_text(path.read_text() + "\n[[step]]\nincrements = 2\n")
     monkeypatch.setattr(plan, "SHARED_WORK", 1e4)  # what threads share of large models
-    monkeypatch.setattr(shared_fronts, "TILE", 16)
+    monkeypatch.setattr(schedule, "TILE", 16)
     found = []
     for number, folder in ((1, "one"), (2, "two"), (1, "again")):
         use(number)
