@@ -50,6 +50,19 @@ def test_a_cycle_is_symmetric_and_positive(bodies):
     assert x @ cycle(x) > 0
 
 
+def test_springs_replace_those_before_at_the_nodes_of_contacts(bodies):
+    """On the finest level: the matrix is that of bodies and the last springs, whatever there was before."""
+    for parts in ((1.0, 1.0), (0.3, 0.0)):
+        own = springs(bodies, *parts)
+        level = bodies.preconditioner.under(own).levels[0]
+        np.testing.assert_allclose((level.A - bodies.K - own).data, 0.0, atol=1e-12 * bodies.K.data.max())
+        whole = (bodies.K + own).toarray()
+        d = level.A.blocksize[0]
+        for i in (0, int(bodies.B.indices[0]) // d):
+            block = whole[d * i : d * i + d, d * i : d * i + d]
+            np.testing.assert_allclose(level.inverses[i] @ block, np.eye(d), atol=1e-10)
+
+
 @pytest.mark.parametrize("parts", [(0.0, 0.0), (1.0, 0.0), (1.0, 0.1), (1.0, 1.0)])
 def test_every_state_of_contact_takes_the_same_few_iterations(bodies, parts):
     own = springs(bodies, *parts)

@@ -162,16 +162,16 @@ def make_bodies(
     K, B, nodes, points = free[:4]
     chosen = chosen_pairs(B, interface, candidates)
     blocks = make_blocks(nodes, axis, d)
-    matrix = blocks.matrix(K)
+    matrix, motions = blocks.matrix(K), blocks.columns(chosen.B)
     felt = np.asarray((chosen.B @ K).multiply(chosen.B).sum(axis=1)).ravel().reshape(d, -1).max(axis=0, initial=0.0)
     near = blocks.spread(near_null(arms(points, nodes), axis, d))
     return Bodies(
         **chosen.data(interface, with_supple(felt, interface, chosen.pairs)),
         K=matrix,
-        B=blocks.columns(chosen.B),
+        B=motions,
         rigid=sp.csr_array(blocks.columns(sp.csr_array(rigid.T)).T),
         blocks=blocks,
-        preconditioner=Multigrid(matrix, near),
+        preconditioner=Multigrid(matrix, near, motions),
     )
 
 
