@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from signorini.arrays import Array
@@ -30,7 +32,7 @@ def determinants(matrices: Array) -> Array:
     (array([6.]), array(8.))
     """
     rows = np.moveaxis(matrices, (-2, -1), (0, 1))
-    return np.asarray((rows[0] * _cofactors(rows)[0]).sum(axis=0))
+    return np.asarray(sum(a * b for a, b in zip(rows[0], _cofactors(rows, 0), strict=True)))
 
 
 def gradients_in_space(matrices: Array, reference: Array) -> Array:
@@ -47,16 +49,16 @@ def gradients_in_space(matrices: Array, reference: Array) -> Array:
     [[[[0.5, -0.125], [0.0, 0.25]]]]
     """
     rows = np.moveaxis(matrices, (-2, -1), (0, 1))
-    cofactors = _cofactors(rows)
-    inverse = cofactors / (rows[0] * cofactors[0]).sum(axis=0)
+    cofactors = [_cofactors(rows, i) for i in range(len(rows))]
+    determinant = sum(a * b for a, b in zip(rows[0], cofactors[0], strict=True))
     found = np.empty((*matrices.shape[:2], *reference.shape[1:]))
-    for i, column in enumerate(inverse):
-        found[..., i] = sum(part[..., None] * reference[..., j] for j, part in enumerate(column))
+    for i, column in enumerate(cofactors):
+        found[..., i] = sum((part / determinant)[..., None] * reference[..., j] for j, part in enumerate(column))
     return found
 
 
-def _cofactors(rows: Array) -> Array:
-    """Cofactors of matrices (d, d, ...), in their places; d = 2 or 3."""
+def _cofactors(rows: Array, i: int) -> Sequence[Array]:
+    """Cofactors of row i of matrices (d, d, ...); d = 2 or 3."""
     if len(rows) == 2:
-        return np.stack([np.stack([rows[1, 1], -rows[1, 0]]), np.stack([-rows[0, 1], rows[0, 0]])])
-    return np.stack([np.cross(rows[(i + 1) % 3], rows[(i + 2) % 3], axis=0) for i in range(3)])
+        return (rows[1, 1], -rows[1, 0]) if i == 0 else (-rows[0, 1], rows[0, 0])
+    return tuple(np.cross(rows[(i + 1) % 3], rows[(i + 2) % 3], axis=0))
