@@ -39,7 +39,7 @@ class Solution(HistoryFields):
     def __str__(self) -> str:
         return history_table(self)
 
-    def write(self, path: str | Path) -> None:
+    def write(self, path: str | Path, *, compress: bool = False) -> None:
         """Write the last state, or everything, as the file's name says.
 
         Parameters
@@ -47,6 +47,7 @@ class Solution(HistoryFields):
         path : ``.vtu``: the last state with displacement, stress and von Mises stress; ``.pvd``: a series of these for
             ParaView, at the ends of steps and at times asked for; ``.h5``: everything, to be read again with
             :func:`load`; ``.frd``: all steps, as CalculiX writes them; ``.csv``: `contact_table`
+        compress : whether ``.vtu`` and ``.h5`` are to be half as large, which takes several times as long
 
         Raises
         ------
@@ -55,9 +56,11 @@ class Solution(HistoryFields):
         """
         path = Path(path)
         writers: dict[str, Callable[[], object]] = {
-            ".vtu": lambda: write_bodies(self._fields.at(self.last, strained=True), path, self._fatigue_fields),
-            ".pvd": lambda: write_pvd(self, self._fields, path),
-            ".h5": lambda: write_archive(self, path),
+            ".vtu": lambda: write_bodies(
+                self._fields.at(self.last, strained=True), path, self._fatigue_fields, compress=compress
+            ),
+            ".pvd": lambda: write_pvd(self, self._fields, path, compress=compress),
+            ".h5": lambda: write_archive(self, path, compress=compress),
             ".frd": lambda: write_frd(self, self._fields, path),
             ".csv": lambda: self.contact_table().write(path),
         }
@@ -66,18 +69,18 @@ class Solution(HistoryFields):
             raise InputError(f"is '{path}'; expected {words}", where=("path",))
         writers[path.suffix.lower()]()
 
-    def save_results(self, folder: str | Path) -> list[Path]:
+    def save_results(self, folder: str | Path, *, compress: bool = False) -> list[Path]:
         """Write the files that ``signorini run`` writes into a folder, which is made if need be; they are returned.
 
         What an earlier call left there is replaced. ``signorini plot`` and ``signorini report`` read the folder, and
-        :func:`load`.
+        :func:`load`. Compressed, large files are half as large and take several times as long.
 
         Raises
         ------
         InputError
             If the folder cannot be written to, or holds the results of a deck.
         """
-        return write_folder(self, Path(folder))
+        return write_folder(self, Path(folder), compress=compress)
 
     def save_state(self, path: str | Path) -> None:
         """Write the end of the last finished step, from which :func:`solve` can go on: a NumPy archive, ``*.npz``.

@@ -27,7 +27,7 @@ def plain(value: object) -> str:
     """Everything in a value, arrays spelled in full: equal only for equal values."""
     arrays: dict[str, list[object]] = {}
 
-    def keep(path: str, array: np.ndarray) -> str:
+    def keep(path: str, array: np.ndarray, _: str) -> str:
         arrays[path] = array.tolist()
         return path
 

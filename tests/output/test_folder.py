@@ -9,10 +9,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import meshio
 import pytest
 
 import signorini as sg
 from signorini.cli import main
+from signorini.gallery.cylinder import zhu_cylinder
 from signorini.output import folder as module
 from tests.helpers.block_deck import block_deck
 
@@ -90,7 +92,7 @@ def test_an_interrupted_write_leaves_the_earlier_run_whole(
     assert main(["run", str(deck), "-o", str(out), "--quiet"]) == 0
     before = {file.name: file.read_bytes() for file in out.iterdir()}
 
-    def broken(_fields: object, path: Path) -> None:
+    def broken(_fields: object, path: Path, **_: object) -> None:
         path.write_text("<VTK")
         raise interruption
 
@@ -181,11 +183,9 @@ def test_runs_that_are_killed_leave_whole_files_and_can_be_gone_on_from() -> Non
 def test_a_single_file_that_cannot_be_finished_does_not_appear(
     deck: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    import meshio
-
     solution = sg.solve(sg.read(deck))
     solution.write(tmp_path / "good.vtu")
-    monkeypatch.setattr(meshio, "write", lambda path, *_, **__: (path.write_text("<VTK"), 1 / 0))
+    monkeypatch.setattr(meshio.Mesh, "write", lambda _, path, **__: (path.write_text("<VTK"), 1 / 0))
     for name in ("good.vtu", "new.vtu"):
         with pytest.raises(ZeroDivisionError):
             solution.write(tmp_path / name)
@@ -199,3 +199,15 @@ def test_a_folder_that_cannot_be_is_told_before_the_solve(
     (tmp_path / "file").write_text("")
     assert main(["run", str(deck), "-o", str(tmp_path / "file")]) == 2
     assert f"cannot write to the folder '{tmp_path / 'file'}'" in capsys.readouterr().err
+
+
+def test_compressed_files_are_smaller_and_say_the_same(tmp_path: Path) -> None:
+    solution = sg.solve(zhu_cylinder(refine=12))
+    solution.save_results(tmp_path / "plain")
+    solution.save_results(tmp_path / "small", compress=True)
+    for name in ("solution.vtu", "solution.h5", "state.npz"):
+        assert (tmp_path / "small" / name).stat().st_size < 0.8 * (tmp_path / "plain" / name).stat().st_size
+    plain, small = (meshio.read(tmp_path / which / "solution.vtu") for which in ("plain", "small"))
+    assert all((small.point_data[name] == values).all() for name, values in plain.point_data.items())
+    again = sg.load(tmp_path / "small" / "solution.h5")
+    assert (again.last.displacement == solution.last.displacement).all()

@@ -137,11 +137,11 @@ def test_a_series_that_cannot_be_finished_leaves_the_earlier_one_whole(tmp_path,
     before = {file: file.read_bytes() for file in tmp_path.rglob("*") if file.is_file()}
     write, count = series.write_bodies, []
 
-    def broken(*given):
+    def broken(*given, **asked):
         count.append(1)
         if len(count) == 3:
             raise OSError("no space left on device")
-        write(*given)
+        write(*given, **asked)
 
     monkeypatch.setattr(series, "write_bodies", broken)
     with pytest.raises(OSError, match="no space"):

@@ -135,7 +135,7 @@ def test_cones_survive_decks_and_archives(tmp_path: Path):
     assert sg.read(tmp_path / "deck.toml").contacts == model.contacts
     arrays = {}
 
-    def keep(name, array):
+    def keep(name, array, _):
         arrays[name] = array
         return name
 

@@ -111,6 +111,8 @@ def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
         help="relative error of the pressures, 0.01 say: the mesh is refined until it is met; '0.01,of=peak "
         "pressure,nodes=50000,memory=4e9,seconds=60': of what, and within which bounds; 'estimate': as it is",
     )
+    words = "make large files about half as large, which takes longer than to write them"
+    run.add_argument("--compress", action="store_true", help=words)
     words = "of the factorisation, 'iterative', or 'petsc', which mpiexec runs on several ranks (default: auto)"
     run.add_argument("--backend", default="auto", metavar="NAME", help=words)
     _add_threads(run)

@@ -49,7 +49,8 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     Parameters
     ----------
     deck : as it was read
-    options : ``folder``, ``start``, ``backend``, ``wellposed``, ``accuracy`` and ``quiet`` of the command line
+    options : ``folder``, ``start``, ``backend``, ``wellposed``, ``accuracy``, ``compress`` and ``quiet`` of the command
+        line
     clock : with the seconds of reading
     started : ``time.perf_counter()`` at the beginning of the command
     log : file to which lines on what is done are added; None: none
@@ -68,7 +69,14 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     with own_folder(path, deck.path.name) as folder:
         quiet = options.quiet or options.json
         with _help(first), progress(quiet=quiet, seconds=clock.seconds, note=note, log=log) as clock:
-            publisher = Publisher(folder=folder, clock=clock, started=started, deck=deck.path.name, prints=deck.prints)
+            publisher = Publisher(
+                folder=folder,
+                clock=clock,
+                started=started,
+                deck=deck.path.name,
+                prints=deck.prints,
+                compress=options.compress,
+            )
             history = _solve(deck, options, clock, start, _kept(publisher))
             files = publisher.publish(history)
             clock.says(f"{history.status}: {history.message}" if history.message else str(history.status))

@@ -78,8 +78,8 @@ def _kind(name: str) -> type | None:
     return {kind.__name__: kind for kind in LAWS.values()}.get(name) or _kinds().get(name)
 
 
-def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any:
-    """Plain data that JSON can hold; larger arrays are given to ``keep`` with a path, and it says under which they are.
+def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray, str], str]) -> Any:
+    """Plain data that JSON can hold; larger arrays go to ``keep`` with a path and a digest, and it says where they are.
 
     Parameters
     ----------
@@ -99,7 +99,8 @@ def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray], str]) -> Any
         told = {_MARK: "array", "dtype": value.dtype.str}
         if value.size <= _MAX_INLINE:
             return told | {"shape": list(value.shape), "of": value.ravel().tolist()}
-        return told | {"digest": digest(value), "path": keep(path, value)}
+        key = digest(value)
+        return told | {"digest": key, "path": keep(path, value, key)}
     if isinstance(value, list | tuple | frozenset):
         members = sorted(value) if isinstance(value, frozenset) else value
         parts = [to_plain(part, f"{path}/{i}", keep) for i, part in enumerate(members)]

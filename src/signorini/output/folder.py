@@ -15,7 +15,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from signorini.clock import Clock
+from signorini.cores import number_of_threads
 from signorini.errors import InputError
+from signorini.linalg.crew import Crew
 from signorini.model.prints import Prints
 from signorini.outcome import Outcome
 from signorini.output.archive import GrowingArchive, read_archive, write_archive
@@ -94,7 +96,7 @@ def own_folder(path: Path, deck: str) -> Iterator[Path]:
         yield folder
 
 
-def write_folder(history: History, path: Path) -> list[Path]:
+def write_folder(history: History, path: Path, *, compress: bool = False) -> list[Path]:
     """Write a history as a run of a deck does, into a folder that may hold an earlier one; the files.
 
     Raises
@@ -106,7 +108,7 @@ def write_folder(history: History, path: Path) -> list[Path]:
     clock.seconds |= history.timings
     started = time.perf_counter() - sum(history.timings.values())
     with own_folder(path, "") as folder:
-        return Publisher(folder=folder, clock=clock, started=started).publish(history)
+        return Publisher(folder=folder, clock=clock, started=started, compress=compress).publish(history)
 
 
 def read_results(path: Path) -> History:
@@ -172,6 +174,7 @@ class Publisher:
     started : ``time.perf_counter()`` at the beginning of the run
     prints : what a deck of keywords asks for: what its users expect is written too, ``.frd`` and, if there are tables,
         ``.dat``
+    compress : whether fields, archive and state are
     """
 
     folder: Path
@@ -179,9 +182,13 @@ class Publisher:
     started: float
     deck: str = ""
     prints: Prints | None = None
+    compress: bool = False
     _written: set[str] = field(default_factory=set)
-    _archive: GrowingArchive = field(default_factory=GrowingArchive)
+    _archive: GrowingArchive = field(init=False)
     _spent: float = 0.0
+
+    def __post_init__(self) -> None:
+        self._archive = GrowingArchive(compress=self.compress)
 
     def keep(self, history: History) -> None:
         """Write what is finished while the next step waits, where that has taken at most a tenth of the time so far.
@@ -222,7 +229,8 @@ class Publisher:
         try:
             return self._publish(history)
         except OSError as error:
-            self._archive, self._written = GrowingArchive(), self._written - {ARCHIVE}  # begin it anew
+            self._archive = GrowingArchive(compress=self.compress)  # begin it anew
+            self._written -= {ARCHIVE}
             reason = os.strerror(error.errno) if error.errno else str(error)
             words = f"cannot write results into '{self.folder}': {reason}; what it held before is still there"
             raise OSError(error.errno or 0, words) from error
@@ -249,21 +257,32 @@ class Publisher:
     def _write(self, history: History, aside: Path) -> list[str]:
         """All files but the summary; their names. Fields that are in the folder already stay as they are.
 
-        While the run goes on the archive grows, and the tables that users of other codes expect wait for the end.
+        While the run goes on the archive grows, and the tables that users of other codes expect wait for the end. The
+        archive is written beside the fields: HDF5 and NumPy let go of the interpreter.
         """
         if not history.steps and history.escape is None:
             return []
-        running = history.status == Outcome.RUNNING
-        prints = None if running else self.prints
-        fields = Fields(history.model, shared=() if prints is None else history.steps)
-        names = _write_tables(history, fields, aside, done=self._written) if history.steps else []
-        if running:
+        with Crew(min(number_of_threads(), 2)) as crew:
+            parts = [lambda: self._write_fields(history, aside), lambda: self._write_archive(history, aside)]
+            return [name for names in crew.each(parts) for name in names]
+
+    def _write_archive(self, history: History, aside: Path) -> list[str]:
+        """The whole history; its name."""
+        if history.status == Outcome.RUNNING:
             last = self.folder / ARCHIVE if ARCHIVE in self._written else None
             self._archive.write(history, aside / ARCHIVE, last=last)
         else:
-            write_archive(history, aside / ARCHIVE)
-        names.append(ARCHIVE)
-        if history.steps and prints is not None:
+            write_archive(history, aside / ARCHIVE, compress=self.compress)
+        return [ARCHIVE]
+
+    def _write_fields(self, history: History, aside: Path) -> list[str]:
+        """What is not in the archive alone; the names of the files."""
+        if not history.steps:
+            return []
+        prints = None if history.status == Outcome.RUNNING else self.prints
+        fields = Fields(history.model, shared=() if prints is None else history.steps)
+        names = _write_tables(history, fields, aside, done=self._written, compress=self.compress)
+        if prints is not None:
             write_frd(history, fields, aside / "solution.frd", prints.times)
             names.append("solution.frd")
             if prints.tables:
@@ -287,7 +306,9 @@ def _clear(folder: Path) -> None:
             fields.rmdir()
 
 
-def _write_tables(history: History, fields: Fields, folder: Path, *, done: Collection[str] = ()) -> list[str]:
+def _write_tables(
+    history: History, fields: Fields, folder: Path, *, done: Collection[str], compress: bool
+) -> list[str]:
     """Rows and fields of the steps, and the state at the end of the last one; their names.
 
     Fields whose names are in ``done`` are not written again.
@@ -296,23 +317,23 @@ def _write_tables(history: History, fields: Fields, folder: Path, *, done: Colle
     names = ["contact.csv"]
     model = history.model
     if len(history.steps) > 1 or any(shot.displacement is not None for shot in history.last.instants[:-1]):
-        names += write_series(fields, frames(history), folder, done=done)
+        names += write_series(fields, frames(history), folder, done=done, compress=compress)
     last = folder / f"solution_{len(history.steps):04d}.vtu"
     if history.fatigue_results:
         write_fatigue(history, folder / "fatigue.csv")
         names.append("fatigue.csv")
         further = fatigue_fields(history.fatigue_results, fields.stresses(history.last))
-        write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu", further)
+        write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu", further, compress=compress)
     elif last.exists():
         shutil.copyfile(last, folder / "solution.vtu")
     else:
-        write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu")
+        write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu", compress=compress)
     if model.contacts:
         write_surfaces(model, history.last.contacts, folder / SURFACES)
         names.append(SURFACES)
     write_history(history, folder / "history.csv")
     names += ["solution.vtu", "history.csv"]
     if history.end is not None:
-        write_checkpoint(history.end, folder / "state.npz")
+        write_checkpoint(history.end, folder / "state.npz", compress=compress)
         names.append("state.npz")
     return names

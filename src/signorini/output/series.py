@@ -63,6 +63,7 @@ def write_series(
     bodies: str = "solution",
     surfaces: str = "contact",
     done: Collection[str] = (),
+    compress: bool = False,
 ) -> list[str]:
     """Write fields of the bodies and of the contact surfaces, and the lists that ParaView opens.
 
@@ -77,6 +78,7 @@ def write_series(
     folder : for the lists, and for ``fields``
     bodies, surfaces : how the names of the files begin
     done : names of files that were written before, and are left out
+    compress : whether files of bodies are
 
     Returns
     -------
@@ -91,7 +93,7 @@ def write_series(
         within = f"{frame.step:04d}_{frame.number:04d}.vtu"
         name = f"{bodies}_{frame.step:04d}.vtu" if frame.last else f"{FIELDS}/{bodies}_{within}"
         if name not in done:
-            write_bodies(fields.at(frame.state, strained=True), folder / name)
+            write_bodies(fields.at(frame.state, strained=True), folder / name, compress=compress)
         lists[bodies].append((frame.time, name))
         if touching:
             name = f"{FIELDS}/{surfaces}_{within}"
@@ -104,7 +106,7 @@ def write_series(
     return [*(name for entries in lists.values() for _, name in entries), *(f"{name}.pvd" for name in lists)]
 
 
-def write_pvd(history: History, fields: Fields, path: Path) -> None:
+def write_pvd(history: History, fields: Fields, path: Path, *, compress: bool = False) -> None:
     """Write a history as a series whose list is ``path``, ``NAME.pvd``, with ``NAME_contact.pvd`` of its contacts.
 
     The fields are those of its model; see :func:`write_series`.
@@ -115,7 +117,8 @@ def write_pvd(history: History, fields: Fields, path: Path) -> None:
         If nothing was solved.
     """
     _ = history.last
-    write_series(fields, frames(history), path.parent, bodies=path.stem, surfaces=f"{path.stem}_contact")
+    surfaces = f"{path.stem}_contact"
+    write_series(fields, frames(history), path.parent, bodies=path.stem, surfaces=surfaces, compress=compress)
 
 
 def listed(entries: Sequence[tuple[float, str]]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,10 +19,15 @@ from signorini.plasticity.fields import PlasticFields
 from signorini.solution.results import ContactResult
 from signorini.solution.surface import arc_length, contact_faces, contact_lines, status_codes
 
+if TYPE_CHECKING:
+    import meshio
+
 _SURFACE_CELLS = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
 
 
-def write_bodies(fields: BodyFields, path: Path, further: Mapping[str, Array] | None = None) -> None:
+def write_bodies(
+    fields: BodyFields, path: Path, further: Mapping[str, Array] | None = None, *, compress: bool = False
+) -> None:
     """Write displacements, stresses, strains and forces of the bodies in one state.
 
     Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz, xz, force per area, tension
@@ -38,6 +44,7 @@ def write_bodies(fields: BodyFields, path: Path, further: Mapping[str, Array] | 
     fields : of the bodies
     path : of the file
     further : point arrays by name, (n,)
+    compress : whether the file is to be half as large, which takes several times as long
     """
     import meshio
 
@@ -65,8 +72,7 @@ def write_bodies(fields: BodyFields, path: Path, further: Mapping[str, Array] | 
             **_by_name(fields.in_cells),
         },
     )
-    with atomic_write(path) as aside:
-        meshio.write(aside, grid, file_format="vtu")
+    _write(grid, path, compress=compress)
 
 
 def _plastic(fields: PlasticFields) -> dict[str, Array]:
@@ -118,8 +124,13 @@ def write_surfaces(model: Model, contacts: Sequence[ContactResult], path: Path) 
                 arrays[name] = np.zeros(len(arrays["gap"])) if each is None else each
     data = {name: np.concatenate([arrays[name] for arrays in every]) for name in every[0]}
     grid = meshio.Mesh(data.pop("points"), blocks, point_data=data, cell_data={"contact": owner})
+    _write(grid, path)
+
+
+def _write(grid: meshio.Mesh, path: Path, *, compress: bool = False) -> None:
+    """Write a grid; lengths of arrays as UInt64, for those of more than 4 GB."""
     with atomic_write(path) as aside:
-        meshio.write(aside, grid, file_format="vtu")
+        grid.write(aside, file_format="vtu", compression="zlib" if compress else None, header_type="UInt64")
 
 
 def _surface_cells(model: Model, contact: ContactResult) -> list[IntArray]:
