@@ -30,10 +30,15 @@ _MIN_COMPRESSED = 65536  # bytes: smaller arrays are not worth compressing
 
 
 def write_archive(history: History, path: Path, *, compress: bool = False) -> None:
-    """Write a history; large arrays compressed only if asked, which takes longer than all else.
+    """Write a history.
 
     Arrays lie under paths like ``/steps/0/displacement``, each once however often it occurs; the text dataset
     ``structure`` holds the rest as JSON. The first 512 bytes, a user block to HDF5, hold a digest of all others.
+
+    Parameters
+    ----------
+    history, path : what is written, and where
+    compress : whether large arrays are
     """
     GrowingArchive(compress=compress).write(history, path)
 

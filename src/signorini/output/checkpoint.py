@@ -27,7 +27,12 @@ def write_checkpoint(checkpoint: Checkpoint, path: Path, *, compress: bool = Fal
     """Write a state; every number is read back exactly as it is.
 
     Arrays are members of the archive under names like ``state/displacement``; ``structure`` holds the rest as JSON, and
-    digests by which damage is found. Compressed, it is half as large and takes several times as long.
+    digests by which damage is found.
+
+    Parameters
+    ----------
+    checkpoint, path : what is written, and where
+    compress : whether it is to be half as large, which takes several times as long
     """
     arrays: dict[str, AnyArray] = {}
 

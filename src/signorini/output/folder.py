@@ -16,8 +16,8 @@ from pathlib import Path
 
 from signorini.clock import Clock
 from signorini.cores import number_of_threads
+from signorini.crew import Crew
 from signorini.errors import InputError
-from signorini.linalg.crew import Crew
 from signorini.model.prints import Prints
 from signorini.outcome import Outcome
 from signorini.output.archive import GrowingArchive, read_archive, write_archive
@@ -98,6 +98,11 @@ def own_folder(path: Path, deck: str) -> Iterator[Path]:
 
 def write_folder(history: History, path: Path, *, compress: bool = False) -> list[Path]:
     """Write a history as a run of a deck does, into a folder that may hold an earlier one; the files.
+
+    Parameters
+    ----------
+    history, path : what is written, and into which folder
+    compress : whether fields, archive and state are
 
     Raises
     ------

@@ -109,7 +109,10 @@ def write_series(
 def write_pvd(history: History, fields: Fields, path: Path, *, compress: bool = False) -> None:
     """Write a history as a series whose list is ``path``, ``NAME.pvd``, with ``NAME_contact.pvd`` of its contacts.
 
-    The fields are those of its model; see :func:`write_series`.
+    Parameters
+    ----------
+    history, fields : what is written, and the fields of its model
+    path, compress : of the list, and whether files of bodies are, see :func:`write_series`
 
     Raises
     ------
