@@ -34,10 +34,10 @@ def test_an_output_that_the_first_mesh_has_not():
 
 @pytest.mark.slow
 def test_cells_are_refined_by_what_counts_for_the_output():
-    """The largest pressure is at the pole: half of the nodes that the pressure of the whole side needs."""
+    """The largest pressure is at the pole: two thirds of the nodes that the pressure of the whole side needs."""
     of = sg.pressure("seat").peak
     peak, whole = (sg.solve(coarse.cylinder(), accuracy=sg.Accuracy(0.005, of=what)) for what in (of, "pressure"))
-    assert peak.accuracy.levels[-1].nodes < 0.5 * whole.accuracy.levels[-1].nodes
+    assert 3 * peak.accuracy.levels[-1].nodes < 2 * whole.accuracy.levels[-1].nodes
 
 
 def test_nodes_are_those_of_the_mesh_to_begin_with():

@@ -25,7 +25,8 @@ def true_error(solution, reference):
         for c in (solution.contact("seat"), reference.contact("seat"))
         for order in [np.argsort(c.points[:, 0])]
     )
-    at = np.linspace(0.0, 1.15 * fine[exact > 0].max(), 20001)
+    touching = fine[exact > 0.0]
+    at = np.linspace(1.15 * min(touching.min(), 0.0), 1.15 * touching.max(), 20001)
     true = np.interp(at, fine, exact)
     return float(np.sqrt(((np.interp(at, x, p) - true) ** 2).sum() / (true**2).sum()))
 
@@ -33,7 +34,7 @@ def true_error(solution, reference):
 @pytest.fixture(scope="module")
 def references():
     fine = sg.Accuracy(3e-3, nodes=40_000)
-    return {"hertz": sg.solve(hertz(), accuracy=fine), "cylinder": sg.solve(cylinder(), accuracy=fine)}
+    return {name: sg.solve(CASES[name][0](), accuracy=fine) for name in ("hertz", "cylinder", "two cylinders")}
 
 
 CASES = {
@@ -43,6 +44,7 @@ CASES = {
     "cylinder": (cylinder, {}),
     "cylinder, linear": (cylinder, {"order": 1}),
     "cylinder, quadrilaterals": (cylinder, {"cells": "quad", "order": 1}),
+    "two cylinders": (coarse.two_cylinders, {}),
 }
 
 
@@ -50,14 +52,14 @@ CASES = {
 @pytest.mark.parametrize("asked", [0.03, 0.01])
 @pytest.mark.parametrize("name", CASES)
 def test_what_is_asked_for_is_true(references, name, asked):
-    """Below what was asked for, and estimated between 0.7 and 2.2 times."""
+    """Below what was asked for, and estimated between 0.7 and twice what is true."""
     pose, given = CASES[name]
     solution = sg.solve(pose(**given), accuracy=asked)
     found, true = solution.accuracy, true_error(solution, references[name.split(",")[0]])
     assert found.met
     assert found.pressure <= asked
     assert true <= asked
-    assert 0.7 <= found.pressure / true <= 2.2
+    assert 0.7 <= found.pressure / true <= 2.0
     assert solution.last.certificate.passed
 
 

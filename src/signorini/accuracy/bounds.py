@@ -3,20 +3,27 @@
 
 from __future__ import annotations
 
+import math
 import time
+from collections.abc import Sequence
 
 from signorini.accuracy.estimate import IN_SPACE, Estimate
 from signorini.accuracy.meshes import is_linear
 from signorini.memory import available_memory, peak_memory
 from signorini.model.accuracy import Accuracy
 from signorini.model.model import Model
+from signorini.solution.accuracy import MeshLevel
 
 SAFE_SHARE = 0.7
 """Of what was asked for: what the next mesh is made for."""
 
-LEAST_GROWTH, MOST_GROWTH = 1.6, 3.0
-"""How many times the cells of a mesh the next one has: with fewer solves add up, with more cells are where no errors
-are."""
+LEAST_GROWTH, MOST_GROWTH, MOST_IN_PLANE = 1.6, 3.0, 6.0
+"""How many times the cells of a mesh the next one has, at most, and for norms in the plane: with fewer solves add up,
+with more cells are where no errors are."""
+
+_FASTER = 1.5
+"""Times the power that is expected of errors in norms: with which they have fallen in the plane, at most, and do with
+few pairs, whose errors are those of the ends alone."""
 
 SHARE_OF_ROOM, SMALLEST_GROWTH = 0.9, 1.2
 """Of the nodes that a mesh may have: what it is made for where errors ask for more; the least growth worth a mesh."""
@@ -27,6 +34,9 @@ LEVELS = 40
 PAIRS = {2: 10, 3: 30}
 """Pairs that have to touch, at least, in the plane and in space: with fewer the ends of a contact are known to a tenth.
 In space they are those of a circle of ten across, and of a quarter of one twice as large."""
+
+PLANE = 2
+"""Dimension in which what the sides of a contact lack tells where to refine, and errors fall as evenly as cells."""
 
 _MESHES = {"energy": 1, "pressure": 2, "traction": 2}
 """On which each has to be known, at least; outputs on three: their errors change sign."""
@@ -64,23 +74,30 @@ class Bounds:
         of = self._request.of
         return _MESHES[of] if isinstance(of, str) else 3
 
-    def growth(self, found: Estimate, model: Model) -> float:
-        """Of the number of cells, as far as errors that fall as usual ask for it.
+    def growth(self, found: Estimate, model: Model, levels: Sequence[MeshLevel]) -> float:
+        """Of the number of cells, as far as errors that fall as usual, or as they have, ask for it.
+
+        In the plane several meshes that it takes grow alike, so that the last is no larger than it need be.
 
         Parameters
         ----------
         found, model : estimated, on its mesh
+        levels : meshes so far, with this one
         """
-        request = self._request
-        rate = (1.0 if is_linear(model) else 2.0) / model.dimension  # power of nodes with which errors fall
-        if model.dimension == IN_SPACE and request.of in ("pressure", "traction"):
+        request, d = self._request, model.dimension
+        rate = (1.0 if is_linear(model) else 2.0) / d  # power of nodes with which errors fall
+        least, most = LEAST_GROWTH if isinstance(request.of, str) else MOST_GROWTH, MOST_GROWTH
+        even = d == PLANE and isinstance(request.of, str)
+        if even:
+            few, most = found.pairs < PAIRS[d] and request.of != "energy", MOST_IN_PLANE
+            rate *= _FASTER if few else min(max(_power(levels[-2:], str(request.of)) / rate, 1.0), _FASTER)
+        elif d == IN_SPACE and request.of in ("pressure", "traction"):
             rate *= _FALL_NEAR_CONTACT
         needed = (min(found.of(request.of) / (SAFE_SHARE * request.error), 1e6)) ** (1.0 / rate)
+        if even and needed > most:
+            needed **= 1.0 / math.ceil(math.log(needed) / math.log(most))
         room = SHARE_OF_ROOM * request.nodes / len(model.mesh.points)
-        least = (
-            LEAST_GROWTH if isinstance(request.of, str) else MOST_GROWTH
-        )  # of outputs changes have to tell something
-        return min(max(needed, least), MOST_GROWTH, room if room > SMALLEST_GROWTH else MOST_GROWTH)
+        return min(max(needed, least), most, room if room > SMALLEST_GROWTH else most)
 
     def end(self, nodes: int, more: int, levels: int) -> str:
         """Why no finer mesh is tried; empty: it is.
@@ -102,3 +119,10 @@ class Bounds:
             words = f"the next mesh has {more} nodes, with which {expected / 1e9:.3g} GB of memory are expected"
             return f"{words}, more than {room / 1e9:.3g} GB"
         return f"{levels} meshes were tried" if levels >= LEVELS else ""
+
+
+def _power(levels: Sequence[MeshLevel], of: str) -> float:
+    """Of the number of nodes with which an error has fallen between two meshes; 0 where it has not, or of one mesh."""
+    errors = [float(getattr(level, of)) for level in levels]
+    falls = len(levels) > 1 and errors[0] > errors[1] > 0.0
+    return math.log(errors[0] / errors[1]) / math.log(levels[1].nodes / levels[0].nodes) if falls else 0.0

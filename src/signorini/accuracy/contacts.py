@@ -7,19 +7,28 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import cKDTree
 
+from signorini.accuracy.meshes import is_linear
 from signorini.accuracy.recovery import StressError
-from signorini.arrays import Array, padded
-from signorini.fem.boundary import boundary
-from signorini.fem.space import Space
+from signorini.accuracy.sides import side_errors
+from signorini.arrays import Array, IntArray, padded
+from signorini.fem.boundary import Boundary, boundary
+from signorini.fem.stress import DeformedBodies
 from signorini.model.model import Model
 from signorini.solution.results import ContactResult
+
+_NEAREST = 4
+"""Facets whose middles are nearest to a node, of which one is opposite."""
+
+_BEYOND_END = 1e-3
+"""Of the length of a facet: as far beyond its end a node is still opposite."""
 
 _FULL = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
 """Places of the entries of a tensor in xx, yy, zz, xy, yz, xz."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class ContactErrors:
     """Squares, summed over contacts with their areas, force squared per area.
 
@@ -27,42 +36,155 @@ class ContactErrors:
     ----------
     pressure, friction : of differences
     scale : of the pressures themselves
+    nodes : (p,) in the plane, of the differences of both, at corners of both sides; 0 elsewhere
     """
 
-    pressure: float
-    friction: float
-    scale: float
+    pressure: float = 0.0
+    friction: float = 0.0
+    scale: float = 0.0
+    nodes: Array | float = 0.0
+
+    def __add__(self, other: ContactErrors) -> ContactErrors:
+        return ContactErrors(
+            pressure=self.pressure + other.pressure,
+            friction=self.friction + other.friction,
+            scale=self.scale + other.scale,
+            nodes=self.nodes + other.nodes,
+        )
 
     def scaled(self, share: float) -> ContactErrors:
         """With a share of the squares of differences."""
         return replace(self, pressure=share * self.pressure, friction=share * self.friction)
 
 
-def trace_errors(space: Space, model: Model, contacts: Sequence[ContactResult], stress: StressError) -> ContactErrors:
+def trace_errors(deformed: DeformedBodies, contacts: Sequence[ContactResult], stress: StressError) -> ContactErrors:
     """Tractions of the law beside those of the recovered stresses on the body's own surface, along the same normals.
+
+    In the plane on the surfaces of both bodies, the larger difference on every facet.
 
     Parameters
     ----------
-    space, model : of the bodies
+    deformed : bodies
     contacts : at one load
     stress : recovered at that load
     """
-    pressure = friction = scale = 0.0
-    bodies = model.body_of_cells()
+    found = ContactErrors()
     for result in contacts:
-        side = boundary(space, result.nonmortar, ("contact",))
-        normals = side.nodal_normals[np.searchsorted(side.nodes, result.node)]
-        normals = padded(normals, result.normals.shape[1])
-        body = int(bodies[side.cells[0]])
-        nodes, recovered = stress.nodal[body]
-        tensors = _tensors(recovered[np.searchsorted(nodes, result.node)], normals.shape[1])
-        traction = np.einsum("kij,kj->ki", tensors, normals)
-        pressing = np.einsum("ki,ki->k", traction, result.normals)
-        shear = traction - pressing[:, None] * result.normals
-        pressure += float(result.area @ (pressing - result.pressure) ** 2)
-        friction += float(result.area @ ((shear - result.shear) ** 2).sum(axis=1))
-        scale += float(result.area @ result.pressure**2)
-    return ContactErrors(pressure, friction, scale)
+        side = boundary(deformed.space, result.nonmortar, ("contact",))
+        own = _Surface.of(side, deformed.model, stress)
+        if deformed.model.dimension == 2:
+            found += _along_side(own, result, deformed, stress)
+        else:
+            found += _at_nodes(result, *own.tractions(result, np.searchsorted(own.nodes, result.node)))
+    return found
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Surface:
+    """Corners of a side, with the stresses recovered there.
+
+    Attributes
+    ----------
+    side : of one body
+    nodes : (k,) corners, ascending
+    normals : (k, 3) outward
+    vectors : (k, 3) forces per area on the body
+    """
+
+    side: Boundary
+    nodes: IntArray
+    normals: Array
+    vectors: Array
+
+    @staticmethod
+    def of(side: Boundary, model: Model, stress: StressError) -> _Surface:
+        """Of a boundary of a body."""
+        corners, recovered = stress.nodal[int(model.body_of_cells()[side.cells[0]])]
+        nodes = side.corner_nodes
+        normals = padded(side.nodal_normals[np.searchsorted(side.nodes, nodes)], 3)
+        vectors = np.einsum("kij,kj->ki", _tensors(recovered[np.searchsorted(corners, nodes)], 3), normals)
+        return _Surface(side=side, nodes=nodes, normals=normals, vectors=vectors)
+
+    def tractions(self, result: ContactResult, rows: IntArray) -> tuple[Array, Array]:
+        """Pressures (n,) and frictions (n, d) at the pairs of a contact, which are at some of the corners."""
+        return _split(self.vectors[rows], result.normals)
+
+    def opposite_tractions(
+        self, result: ContactResult, own: _Surface, rows: IntArray, weights: Array
+    ) -> tuple[Array, Array]:
+        """Pressures and frictions of what presses against a side, on its areas, along whose normals pairs are found.
+
+        Parameters
+        ----------
+        result : of the contact
+        own : surface of the side that has the pairs
+        rows, weights : (n, 2) corners that the pairs are between, and of both; 0 for what is beyond an end
+        """
+        vectors, normals = (np.einsum("na,nai->ni", weights, part[rows]) for part in (self.vectors, self.normals))
+        facing = np.abs(np.einsum("ni,ni->n", normals, own.normals[np.searchsorted(own.nodes, result.node)]))
+        beyond = facing == 0.0
+        pressing, shear = _split(-vectors / np.where(beyond, 1.0, facing)[:, None], result.normals)
+        return np.where(beyond, result.pressure, pressing), np.where(beyond[:, None], result.shear, shear)
+
+
+def _split(vectors: Array, normals: Array) -> tuple[Array, Array]:
+    """Forces per area (n, 3) along normals (n, d), and what is left of them, (n, d)."""
+    traction = vectors[:, : normals.shape[1]]
+    pressing = np.einsum("ki,ki->k", traction, normals)
+    return pressing, traction - pressing[:, None] * normals
+
+
+def _along_side(own: _Surface, result: ContactResult, deformed: DeformedBodies, stress: StressError) -> ContactErrors:
+    """Of one contact in the plane."""
+    model, linear = deformed.model, is_linear(deformed.model)
+    recovered = own.tractions(result, np.searchsorted(own.nodes, result.node))
+    errors, nodes = side_errors(own.side, result, recovered, linear=linear), np.zeros(len(model.mesh.points))
+    if result.coupling != "obstacle" and not model.mesh.bounds_nothing(result.mortar):
+        opposite = _Surface.of(boundary(deformed.space, result.mortar, ("contact",)), model, stress)
+        rows, weights = _opposite(deformed, result, opposite)
+        recovered = opposite.opposite_tractions(result, own, rows, weights)
+        errors = errors.larger(side_errors(own.side, result, recovered, linear=linear))
+        shares = errors.at_nodes(len(model.mesh.points))[result.node]
+        np.add.at(nodes, opposite.nodes[rows], weights * shares[:, None])
+    nodes += errors.at_nodes(len(nodes))
+    return ContactErrors(
+        pressure=float(errors.pressure.sum()),
+        friction=float(errors.friction.sum()),
+        scale=float(errors.scale.sum()),
+        nodes=nodes,
+    )
+
+
+def _opposite(deformed: DeformedBodies, result: ContactResult, surface: _Surface) -> tuple[IntArray, Array]:
+    """Between which corners (n, 2) of the other side pairs are, and the weights of both; 0 beyond its ends.
+
+    Parameters
+    ----------
+    deformed : bodies
+    result : of the contact
+    surface : of the mortar body
+    """
+    (block,) = surface.side.blocks
+    places = deformed.space.mesh.points + deformed.displacement[:, : deformed.space.dimension]
+    pairs, ends = places[result.node], places[block.corner_nodes]
+    spans = ends[:, 1] - ends[:, 0]
+    near = cKDTree(ends.mean(axis=1)).query(pairs, min(_NEAREST, len(ends)))[1].reshape(len(pairs), -1)
+    along = np.einsum("nki,nki->nk", pairs[:, None] - ends[near, 0], spans[near]) / (spans[near] ** 2).sum(axis=2)
+    inside = np.clip(along, 0.0, 1.0)
+    away = np.linalg.norm(pairs[:, None] - ends[near, 0] - inside[..., None] * spans[near], axis=2)
+    best, every = np.argmin(away, axis=1), np.arange(len(pairs))
+    share, beyond = inside[every, best], np.abs(along - inside)[every, best] > _BEYOND_END
+    weights = np.where(beyond[:, None], 0.0, np.column_stack([1.0 - share, share]))
+    return np.searchsorted(surface.nodes, block.corner_nodes[near[every, best]]), weights
+
+
+def _at_nodes(result: ContactResult, pressing: Array, shear: Array) -> ContactErrors:
+    """Of one contact, beside other pressures and frictions at its nodes."""
+    return ContactErrors(
+        pressure=float(result.area @ (pressing - result.pressure) ** 2),
+        friction=float(result.area @ ((shear - result.shear) ** 2).sum(axis=1)),
+        scale=float(result.area @ result.pressure**2),
+    )
 
 
 def level_errors(contacts: Sequence[ContactResult], before: Sequence[tuple[Array, Array]]) -> ContactErrors:
@@ -73,12 +195,10 @@ def level_errors(contacts: Sequence[ContactResult], before: Sequence[tuple[Array
     contacts : at one load
     before : of every contact pressures (nodes,) and frictions (nodes, d) of the coarser mesh at the nodes of this one
     """
-    pressure = friction = scale = 0.0
+    found = ContactErrors()
     for result, (pressing, shear) in zip(contacts, before, strict=True):
-        pressure += float(result.area @ (pressing[result.node] - result.pressure) ** 2)
-        friction += float(result.area @ ((shear[result.node] - result.shear) ** 2).sum(axis=1))
-        scale += float(result.area @ result.pressure**2)
-    return ContactErrors(pressure, friction, scale)
+        found += _at_nodes(result, pressing[result.node], shear[result.node])
+    return found
 
 
 def _tensors(stress: Array, d: int) -> Array:

@@ -9,22 +9,15 @@ import numpy as np
 
 from signorini.accuracy.contacts import ContactErrors, level_errors, trace_errors
 from signorini.accuracy.influence import influence
-from signorini.accuracy.meshes import is_linear
 from signorini.accuracy.recovery import stress_error
 from signorini.arrays import Array
 from signorini.fem.space import make_space
 from signorini.fem.stress import DeformedBodies
 from signorini.meshing.simplices import Simplices
+from signorini.model.mesh import CORNERS
+from signorini.model.model import Model
 from signorini.plasticity.fields import by_family
 from signorini.solution.history import History
-
-LINEAR = 0.6
-"""Of the differences that are seen on linear cells of the plane: what their pressures lack. Stresses recovered from
-cells in which they are constant, and a mesh of twice the size, are farther from them than they are from the truth."""
-
-HALF_AS_MUCH = 0.5
-"""Of the error of the mesh before: with more what differs from it is no more than what is lacking."""
-
 
 IN_SPACE = 3
 """Dimension in which cells far from a contact are many, and refined by what they count for it."""
@@ -38,7 +31,8 @@ class Estimate:
     ----------
     pressure, traction, energy : relative, of the step where each is largest
     squares : (m,) of the energy norm of every cell, of all steps together, work
-    weights : (m,) by which cells are refined: these, in space by what they count for pressures; or for an output
+    weights : (m,) by which cells are refined for pressures: in the plane these over the norm and what the pressures
+        lack around their corners over these, in space these by what they count for pressures; or for an output
     effect : sum of the weights for pressures
     pairs : that touch at the end of the step where most do
     value, output : of an output that is asked for, and its relative error
@@ -72,43 +66,56 @@ def estimate(history: History, before: Before | None = None) -> Estimate:
     Parameters
     ----------
     history : solved
-    before : the mesh before
+    before : the mesh before, in space
     """
     model = history.model
-    space = make_space(model.mesh, kind=model.kind)
+    space, flat = make_space(model.mesh, kind=model.kind), model.dimension == 2
     traced, carried, pairs = list[ContactErrors](), list[ContactErrors](), 0
     squares, lost, norms = np.zeros(model.mesh.number_of_cells), [0.0], [0.0]
     weights = np.zeros(model.mesh.number_of_cells)
     for k, step in enumerate(history.steps):
         flowed = {} if step.plastic is None else by_family(space, model, step.plastic.state.strain)
-        stress = stress_error(DeformedBodies.of(space, model, step.displacement, step.factors, flowed))
+        deformed = DeformedBodies.of(space, model, step.displacement, step.factors, flowed)
+        stress = stress_error(deformed)
         squares += stress.squares
         weights += stress.squares * (influence(model.mesh, step.contacts) if model.dimension == IN_SPACE else 1.0)
         lost.append(float(stress.squares.sum()))
         norms.append(stress.norm_square)
-        traced.append(trace_errors(space, model, step.contacts, stress))
-        if before is not None:
+        traced.append(trace_errors(deformed, step.contacts, stress))
+        if before is not None and not flat:
             carried.append(level_errors(step.contacts, _carried(before, k)))
         pairs = max(pairs, sum(int(contact.closed.sum()) for contact in step.contacts))
     energy = float(np.sqrt(max(lost) / max(norms))) if max(norms) > 0.0 else 0.0
-    effect, share = float(weights.sum()), 1.0
-    if before is not None:
-        older = before[2]
-        in_space = model.dimension == IN_SPACE
-        share = _space_share(effect, older.effect) if in_space else _level_share(energy, older.energy)
+    effect, share = (
+        float(weights.sum()),
+        1.0 if before is None else _space_share(float(weights.sum()), before[2].effect),
+    )
     found = traced + [one.scaled(share) for one in carried]
-    size, seen = max((one.scale for one in traced), default=0.0), 1.0
-    if is_linear(model) and model.dimension != IN_SPACE:
-        seen = LINEAR
+    size, marked = max((one.scale for one in traced), default=0.0), np.zeros(len(model.mesh.points))
+    for one in traced:
+        marked += one.nodes
     return Estimate(
-        pressure=seen * _ratio(max((one.pressure for one in found), default=0.0), size),
-        traction=seen * _ratio(max((one.pressure + one.friction for one in found), default=0.0), size),
+        pressure=_ratio(max((one.pressure for one in found), default=0.0), size),
+        traction=_ratio(max((one.pressure + one.friction for one in found), default=0.0), size),
         energy=energy,
         squares=squares,
-        weights=weights,
+        weights=_over(squares, max(norms)) + _around(model, _over(marked, size)) if flat else weights,
         effect=effect,
         pairs=pairs,
     )
+
+
+def _around(model: Model, squares: Array) -> Array:
+    """(m,) Of cells, from those of nodes: every cell at a node has a share of it."""
+    corners = [cells[:, : CORNERS[family]] for family, cells in model.mesh.cells.items()]
+    count = np.bincount(np.concatenate([part.ravel() for part in corners]), minlength=len(squares))
+    share = squares / np.maximum(count, 1)
+    return np.concatenate([share[part].sum(axis=1) for part in corners])
+
+
+def _over(squares: Array, scale: float) -> Array:
+    """Of a scale, where there is one."""
+    return squares / scale if scale > 0.0 else squares
 
 
 def _carried(before: Before, step: int) -> list[tuple[Array, Array]]:
@@ -122,17 +129,6 @@ def _carried(before: Before, step: int) -> list[tuple[Array, Array]]:
         carried = simplices.carried(values)
         found.append((carried[:, 0], carried[:, 1:]))
     return found
-
-
-def _level_share(energy: float, before: float) -> float:
-    """Of the square of the difference from the mesh before: what this one lacks of it, where errors fall as in energy.
-
-    Parameters
-    ----------
-    energy, before : errors of the stresses on both
-    """
-    fall = energy / before if before > 0.0 else 1.0
-    return (fall / (1.0 - fall)) ** 2 if fall < HALF_AS_MUCH else 1.0
 
 
 def _space_share(effect: float, before: float) -> float:

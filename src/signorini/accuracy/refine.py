@@ -80,7 +80,8 @@ def _refined(model: Model, request: Accuracy, solve: Callable[..., History]) -> 
         met, reason = bounds.met(found, len(levels)), ""
         if not met:
             nodes = len(posed.mesh.points)
-            posed = meshes.next(found.squares if request.of == "energy" else found.weights, bounds.growth(found, posed))
+            weights = found.squares if request.of == "energy" else found.weights
+            posed = meshes.next(weights, bounds.growth(found, posed, levels))
             reason = bounds.end(nodes, len(posed.mesh.points), len(levels))
             if reason and len(levels) == 1 and found.of(request.of) <= request.error:
                 reason = f"it is estimated on one mesh alone: {reason}"
