@@ -143,6 +143,11 @@ class PressedPart:
     patience: int
     aim: float = np.inf
 
+    @property
+    def whole(self) -> bool:
+        """Only a part is here."""
+        return False
+
     @cached_property
     def moves(self) -> BoolArray:
         """(d, a) Rows of B that see anything."""

@@ -27,6 +27,7 @@ from signorini.linalg.krylov import conjugate_gradients
 ITERATIVE = "iterative"
 """The name of this way among the back ends."""
 
+_SPRING_SHARE = 0.25  # of the springs of pairs: what is left of them where multigrid has to bear them
 _SHARP_AIM = 1e-12  # of the sizes of the data: what bodies that are hardly loaded bear, and thin ones bend by
 
 
@@ -67,6 +68,11 @@ class Bodies(IteratedPairs):
         spread = self.blocks.spread
         answer, z = solve_iteratively(self, replace(load, f=spread(load.f)), spread(free), forces)
         return answer, z[self.blocks.place]
+
+    @property
+    def whole(self) -> bool:
+        """Unless factors serve, with which rounds go on to the last digits."""
+        return not np.isfinite(self.aim)
 
     @cached_property
     def moves(self) -> BoolArray:
@@ -132,7 +138,8 @@ class Bodies(IteratedPairs):
         """
         known = np.unique(nodes)
         direct = Direct(self.K, np.repeat(known, self.blocks.size), points)
-        return replace(self, preconditioner=direct, patience=patience, aim=_SHARP_AIM)
+        stiffness = self.stiffness / _SPRING_SHARE
+        return replace(self, preconditioner=direct, stiffness=stiffness, patience=patience, aim=_SHARP_AIM)
 
     def among(self, kept: BoolArray) -> Bodies:
         """Bodies with fewer pairs.
@@ -166,7 +173,7 @@ def make_bodies(
     felt = np.asarray((chosen.B @ K).multiply(chosen.B).sum(axis=1)).ravel().reshape(d, -1).max(axis=0, initial=0.0)
     near = blocks.spread(near_null(arms(points, nodes), axis, d))
     return Bodies(
-        **chosen.data(interface, with_supple(felt, interface, chosen.pairs)),
+        **chosen.data(interface, _SPRING_SHARE * with_supple(felt, interface, chosen.pairs)),
         K=matrix,
         B=motions,
         rigid=sp.csr_array(blocks.columns(sp.csr_array(rigid.T)).T),

@@ -63,6 +63,10 @@ class PressedBodies(Protocol):
     def aim(self) -> float:
         """Residual down to which rounds go on that need not, as long as it falls."""
 
+    @property
+    def whole(self) -> bool:
+        """Whether all bodies are here and multigrid serves, so that Newton's method on all at once is tried."""
+
     def internal(self, z: Array) -> Array:
         """(b,) Forces K z of displacements z, (b,)."""
 

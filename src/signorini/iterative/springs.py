@@ -50,6 +50,11 @@ class PairSprings:
         pairs = (self.normal, other.normal), (self.tangent, other.tangent)
         return max(float(np.abs(one - two).max(initial=0.0)) for one, two in pairs)
 
+    def forces(self, moved: Array) -> Array:
+        """(d, a) Forces of motions (d, a)."""
+        across = (self.tangent * moved[1:]).sum(axis=1)
+        return np.concatenate([(self.normal * moved[0])[None], across])
+
     def matrix(self) -> sp.csr_array:
         """(d a, d a) Forces of motions."""
         rows = [[sp.diags_array(block) for block in line] for line in self.tangent]
