@@ -36,9 +36,9 @@ def test_a_limit_of_newtons_method_is_felt():
 
 
 def test_a_limit_of_multipliers_is_felt():
-    model, few = zhu_cylinder(), sg.SolverSettings(multiplier_rounds=2)
+    model, few = zhu_cylinder(), sg.SolverSettings(multiplier_rounds=1)
     assert sg.prepare(model, backend="iterative").solve().solved
-    with pytest.raises(sg.SolveFailed, match="2 rounds"):
+    with pytest.raises(sg.SolveFailed, match="1 round"):
         sg.prepare(model, backend="iterative", settings=few).solve()
 
 

@@ -41,6 +41,7 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
     points = np.zeros((1, 2))
     points.flags.writeable = False  # as meshes keep them
     laws = _kernels.Laws(np.zeros((1, 3), np.uint32), square, real, 2)
+    pattern = _kernels.SparsityPattern(large, small, real)
     return [
         (kept._felt, (small, small, real, small, small, real, 1)),
         (kept._block, (small, small, real, large, large)),
@@ -61,7 +62,7 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
         (subgraph, (graph, 1)),
         (both_ways, (graph,)),
         (quotient, (graph, small, small, small)),
-        (_kernels.add_block, (points, cells, laws, _kernels.SparsityPattern(large, small, real))),
+        (_kernels.add_block, (points, cells, laws, pattern, _kernels.Share(small, small, 0))),
         (_kernels.unknown_pattern, (large, small, 2)),
         (_kernels.node_pattern, (large, small, 1)),
     ]
