@@ -94,8 +94,7 @@ class ContactSums:
     @cached_property
     def fields(self) -> tuple[Array, Array]:
         """(dofs, k) Displacements of both sides beyond those that contact dofs alone cause: k pairs."""
-        states = 1 + max(self._pulled, default=-1)
-        rows = np.array(list(self.factors.values())) if self.factors else np.zeros((0, states))
+        rows = np.array(list(self.factors.values())).reshape(len(self.factors), -1)
         first, second = [self._inside[:, : len(rows)]], [self._lifted]
         for at, (k, y) in enumerate(self._pulled.items()):
             first.append((self._transform @ y)[:, None])
