@@ -192,7 +192,7 @@ def test_where_two_equilibria_are_certified_at_one_load_the_history_is_said_to_p
     assert solution.message.startswith(f"{said} whose contact forces differ by 0.79 of the largest")
 
 
-@pytest.mark.parametrize("pull", [(2.0, 0.0, 0.5), (3.0, 0.0, 0.0), (-2.5, 0.0, 1.0)])
+@pytest.mark.parametrize("pull", [(2.0, 0.0, 0.5), (3.0, 0.0, 0.0), (-2.0, 0.0, 1.0)])
 def test_what_changes_in_proportion_to_the_load_is_no_jump(pull):
     """A few increments are too few, but no pair acts where forces change most: shorter ones resolve that."""
     model = shelf(friction=2.0, pull=pull)

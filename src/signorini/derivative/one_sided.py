@@ -2,9 +2,7 @@
 """What a history does on the side of a parameter where a pair that comes to its event at the very end goes through it.
 
 On a path the last piece ends at that event there, and one of no length follows in the states in which the path would go
-on under more load: other pairs may change theirs with it, and on smooth cones friction keeps its direction, or takes
-that of the rates where a pair closes. In an increment, also in one on the way that goes on over events, the pair alone
-obeys another part of its law.
+on under more load: other pairs may change theirs with it. In an increment the pair alone obeys another part of its law.
 """
 
 from __future__ import annotations
@@ -14,18 +12,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array, frozen
+from signorini.arrays import Array
 from signorini.derivative.interface_system import PairStates
 from signorini.derivative.points import TapePoint
 from signorini.derivative.space_conditions import states_of_piece
 from signorini.derivative.view import HistoryView
 from signorini.engine.tape import Leg
 from signorini.friction.history import follow
-from signorini.friction.history.rates import NoRates
-from signorini.friction.history.space.find_rates import find_rates
 
-_NUDGE = 1e-9  # of the data: how far beyond its event a pair is looked at
-_WIDTH = 1e-8  # of the data: of zero at an event on a smooth cone
+_NUDGE = 1e-9  # of the data: how far beyond its event a pair is looked at in an increment
 
 
 def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) -> list[TapePoint] | None:
@@ -40,27 +35,23 @@ def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) ->
     """
     *before, point = view.points[: last + 1]
     pair = int(point.conditions.pair[condition])
-    if point.rates is None or point.passes:
+    if point.rates is None:
         states = _nudged(point, view.motions(last - 1)[1:] if last else None, condition)
         return [*before, replace(point, states=states)]
     on = _gone_on(point, legs[point.leg])
     if on is None:
         return None
-    event = replace(point, acting=np.array([pair]), quiet=False)
+    event = replace(point, acting=np.array([pair]), follows=False)
     return [*before, event, replace(point, states=on, h_rate=None, r_rate=None, load_rate=None)]
 
 
 def _gone_on(point: TapePoint, leg: Leg) -> PairStates | None:
-    """The states in which the path of a leg would go on; None where it does not."""
+    """The states in which the path of a leg would go on; None where it does not, or turns on its cones."""
     assert leg.start is not None
     assert leg.segment is not None
     law, end = point.system.law, leg.segment.end
     if point.states.codes is None and (law.law.rubs & (law.section.sides == 0)).any():
-        rates = find_rates(replace(law, b=frozen(end.b - leg.start.b)), end, _WIDTH * (law.scale or 1.0))
-        if isinstance(rates, NoRates):
-            return None
-        part = _NUDGE * (law.scale or 1.0) / max(np.abs(rates.h).max(), np.abs(rates.r).max())
-        return states_of_piece(law, rates.state, (end.h, end.r), (end.h + part * rates.h, end.r + part * rates.r))
+        return None
     pieces = follow(law, end, 2.0 * end.b - leg.start.b, leaves=lambda _: True).pieces
     if len(pieces) < 2 or pieces[1].state is None:
         return None

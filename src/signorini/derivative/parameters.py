@@ -12,7 +12,6 @@ from signorini.derivative.changes import FrictionChange, GapChange, LoadChange
 from signorini.derivative.moduli import ModulusChange, with_material
 from signorini.derivative.pair_change import between_bodies
 from signorini.derivative.recursion import Change
-from signorini.derivative.step_friction import coefficients
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError, one_of
 from signorini.law.friction import Coulomb
@@ -38,8 +37,7 @@ def names_of(prepared: Prepared, kind: str) -> list[str]:
     if kind not in KINDS and kind != "gap":
         raise InputError(one_of(kind, [*KINDS, "gap"], "kind of parameter"))
     if kind in ("interference", "gap", *_LAWS):
-        given = coefficients(model) if kind == "friction" else {}
-        return [*(contact.label for contact in model.contacts if not contact.tied), *given]
+        return [contact.label for contact in model.contacts if not contact.tied]
     if kind == "load":
         return list(prepared.loads)
     if kind == "support":
@@ -97,8 +95,6 @@ def given_value(prepared: Prepared, kind: str, name: str) -> float:
         return 1.0
     if kind in ("E", "nu", "expansion"):
         return float(getattr(next(body.material for body in model.bodies if body.name == name), kind))
-    if kind == "friction" and name in (steps := coefficients(model)):
-        return steps[name]
     contact = next(contact for contact in model.contacts if contact.label == name)
     found = contact.constant_interference if kind == "interference" else getattr(contact, kind)
     return float(found) if isinstance(found, int | float) else np.nan
@@ -120,11 +116,11 @@ def _friction(prepared: Prepared, kind: str, name: str) -> FrictionChange:
     InputError
         Where the contact has none that could change.
     """
-    model, labels = prepared.model, [contact.label for contact in prepared.model.contacts]
-    if kind == "friction" and name in coefficients(model):
-        return FrictionChange(parameter=kind, contact=labels.index(name.rpartition("@")[0]), coefficient=name)
-    number = labels.index(name)
+    model = prepared.model
+    number = [contact.label for contact in model.contacts].index(name)
     law = model.contacts[number].law
+    if any(name in step.friction for step in model.steps):
+        raise InputError(f"steps change the friction of contact '{name}'; its parameters are not one number")
     if not isinstance(law, Coulomb) or isinstance(law.friction, tuple) or callable(law.friction):
         raise InputError(f"the friction of contact '{name}' is not one number")
     if kind == "shear_limit" and law.shear_limit is None:

@@ -32,7 +32,6 @@ from signorini.derivative.space_conditions import (
     space_slips,
     states_of_piece,
 )
-from signorini.derivative.step_friction import in_force
 from signorini.engine.tape import Leg, Tape
 from signorini.errors import InputError
 from signorini.friction.history import PathState
@@ -60,8 +59,7 @@ class TapePoint:
     h, r : (d, n) motions and forces here
     h_rate, r_rate : (d, n) per unit of the part of the leg, on a path in the plane; None elsewhere
     load_rate : (d n + k,) in space, of what the equations see of the load on a path; None elsewhere
-    passes : in space, whether an event in the piece would not end it
-    quiet : whether the piece ends in the middle of a leg where nothing happens, at a load that is given
+    follows : whether the piece keeps its length, so that its end moves with its beginning: nothing happens there
     acting : (m,) pairs whose event it is; empty where the load is given
     increment : (n,) or all: whether the friction of a pair in the piece is that of its end, as in an increment
     """
@@ -79,8 +77,7 @@ class TapePoint:
     acting: IntArray
     increment: bool | BoolArray
     load_rate: Array | None = None
-    quiet: bool = False
-    passes: bool = False
+    follows: bool = False
 
     @property
     def at_event(self) -> bool:
@@ -151,10 +148,8 @@ def tape_points(tape: Tape) -> list[TapePoint]:
     """The points of a history, in order."""
     systems: dict[int, InterfaceSystem] = {}
     points: list[TapePoint] = []
-    friction: dict[str, str] = {}
     for number, leg in enumerate(tape.legs):
-        friction = in_force(leg, friction)
-        system = systems.setdefault(id(leg.prepared), InterfaceSystem(leg.prepared, friction))
+        system = systems.setdefault(id(leg.prepared), InterfaceSystem(leg.prepared))
         if leg.segment is None:
             points += _in_increments(number, leg, system)
         else:
@@ -243,11 +238,10 @@ def _in_space(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePo
             acting=_NOBODY,
             increment=_late(before.state, piece.state),
             load_rate=load_rate,
-            passes=piece.passes,
         )
         if piece.factor < 1.0 or not whole:
             acting = acting_pairs(found.conditions, start, found.piece_end)
-            found = replace(found, acting=acting, quiet=not len(acting))
+            found = replace(found, acting=acting, follows=not len(acting))
         yield found
 
 

@@ -22,7 +22,6 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.history.rates import RATE_TOL
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
-from signorini.law.bound import ADHESION_SLOPE
 from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, STICK
 
@@ -170,19 +169,6 @@ def settled(problem: ContactProblem, now: PathState, trial: SolvedIncrement, sta
     late = (trial.each < 1.0 - END_ROUNDING) & (now.state != OPEN)
     lost = -(np.where(late, r[1:], 0.5 * (r[1:] + now.r[1:])) * moved).sum(axis=0)
     return replace(end, h=h, r=r, state=state, anchor=h[1:], slip=now.slip + moved, dissipation=now.dissipation + lost)
-
-
-def grips(problem: ContactProblem, now: PathState, trial: SolvedIncrement, late: float) -> bool:
-    """Whether a pair that holds friction without pressure closes in an increment, where it sticks, or opens.
-
-    Parameters
-    ----------
-    problem : the problem; its b does not matter
-    now, trial : the beginning of the increment, and the increment
-    late : part of it at its end, in which that does not count
-    """
-    turns = (now.state == OPEN) != (trial.after.state == OPEN)
-    return bool((turns & (problem.mu >= ADHESION_SLOPE) & (trial.each < 1.0 - late)).any())
 
 
 def _over(force: Array, axes: Array) -> Array:
