@@ -2,6 +2,7 @@
 """What threads share of a factorisation: the same to the last bit for any number of them, and right."""
 
 import threading
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -14,12 +15,22 @@ from signorini.errors import InputError
 from signorini.linalg import NotPositiveDefinite, factorise, plan, schedule
 from tests.helpers.lattices import dense_schur, lattice, together
 
+
+def _beside(problem, *others):
+    """A problem with whole bodies beside it that the interface does not touch."""
+    both = together(problem, *others)
+    own = range(len(problem.interface))
+    return replace(both, interface=both.interface[own])
+
+
 PROBLEMS = {
     "plane": lattice((31, 24)),
     "space": lattice((9, 8, 10)),
     "bodies": together(
         lattice((19, 17)), lattice((8, 9), held="none"), lattice((7, 6, 8)), lattice((6, 6), held="roller")
     ),
+    "bodies without an interface": _beside(lattice((31, 24)), lattice((5, 4)), lattice((4, 3, 4))),
+    "no interface": _beside(replace(lattice((31, 24)), interface=np.empty(0, dtype=np.int64)), lattice((5, 4))),
 }
 
 
@@ -46,7 +57,10 @@ def test_every_number_of_threads_gives_the_same_bits(name):
     for other in found[1:]:
         assert all(np.array_equal(one, two) for one, two in zip(found[0], other, strict=True))
     S = dense_schur(p.K, p.interface)
-    assert np.abs(found[0][1] - S).max() <= 1e-12 * np.abs(S).max()
+    assert np.abs(found[0][1] - S).max(initial=0.0) <= 1e-12 * np.abs(S).max(initial=0.0)
+    moved = factor.reduce(load).expand(np.zeros(len(p.interface)))
+    inside = np.setdiff1d(np.arange(len(load)), p.interface)
+    assert np.abs((p.K @ moved - load)[inside]).max() <= 1e-9 * np.abs(load).max()
 
 
 @pytest.mark.usefixtures("shared")

@@ -166,12 +166,15 @@ class _Shared:
         _front_tiles.leave_tile(task.columns, task.rows, k, columns, left, scratch())
 
     def _end(self, task: FrontTask) -> None:
-        """Hand on what is left of a front, and what is left of fronts without a parent to the condensed matrix."""
+        """Hand on what is left of a front, and what is left of fronts without a parent to the condensed matrix.
+
+        Of the last front of a body that the interface does not touch nothing is left.
+        """
         if task.front in self._begun:
             self._left[task.front] = self._begun.pop(task.front).left
         fronts, inside = self._tree.fronts, len(self._tree.elimination.order) - len(self._tree.slot)
         for t in range(task.front, task.end):
-            if fronts.parent[t] == -1:
+            if fronts.parent[t] == -1 and fronts.below[t] > 0:
                 target = self._tree.slot[_below(fronts, t) - inside]
                 _front_tiles.add_root(self._left.pop(t), target, self._tree.made.condensed)
 
