@@ -133,3 +133,40 @@ def test_a_pair_that_closes_at_the_end_has_two_sides(closing, parameter):
         assert solution.derivative(output).sides(parameter) == pytest.approx(sides, abs=1e-5 * size)
         with pytest.raises(sg.InputError, match=rf"node {node + 1} of 'joint' closes .* two sides"):
             solution.derivative(output).by(parameter)
+
+
+def pressed_on_cones(scale, pull):
+    return tilted_rig(facets=0, steps=[sg.Step(scale={"down": scale, "pull": pull * scale, "across": 0.0})])
+
+
+@pytest.fixture(scope="module", params=[(2, 0.1655, 0.4, False), (6, 0.4064, 0.3, True)], ids=["ends", "passes"])
+def closing_on_a_cone(request):
+    """Pressed on smooth cones until a pair closes, in an increment that its event ends, or that passes over it."""
+    node, scale, pull, passes = request.param
+
+    def apart(scale):
+        solution = sg.solve(pressed_on_cones(scale, pull), tape=True)
+        point = solution._taped.view.points[-1]
+        pair = list(solution._taped.view.interface.node[point.system.active]).index(node)
+        return solution, point, point.h[0, pair] - point.r[0, pair]
+
+    low, (*_, before) = 0.999 * scale, apart(0.999 * scale)
+    for _ in range(6):
+        solution, point, here = apart(scale)
+        if abs(here) < 1e-14:
+            break
+        low, scale, before = scale, scale - here * (scale - low) / (here - before), here
+    assert point.passes == passes
+    return pressed_on_cones(scale, pull), solution, node
+
+
+@pytest.mark.parametrize("parameter", ["load.pull", "E.block"])
+def test_a_pair_that_closes_on_its_cone_at_the_end_has_two_sides(closing_on_a_cone, parameter):
+    """Others slip by then, and where it closes it slips from there on, in the direction of the rates."""
+    model, solution, node = closing_on_a_cone
+    outputs = [sg.pressure("joint")[node], sg.traction("joint")[node, 0], sg.traction("joint")[node, 1]]
+    outputs += [sg.pressure("joint").peak, sg.dissipation()]
+    wanted = change_and_differences(model, parameter, outputs)
+    for output, sides in zip(outputs, wanted, strict=True):
+        size = max(map(abs, sides))
+        assert solution.derivative(output).sides(parameter) == pytest.approx(sides, abs=1e-5 * size)

@@ -2,7 +2,9 @@
 """What a history does on the side of a parameter where a pair that comes to its event at the very end goes through it.
 
 On a path the last piece ends at that event there, and one of no length follows in the states in which the path would go
-on under more load: other pairs may change theirs with it. In an increment the pair alone obeys another part of its law.
+on under more load: other pairs may change theirs with it, and on smooth cones friction keeps its direction, or takes
+that of the rates where a pair closes. In an increment, also in one on the way that goes on over events, the pair alone
+obeys another part of its law.
 """
 
 from __future__ import annotations
@@ -12,15 +14,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, frozen
 from signorini.derivative.interface_system import PairStates
 from signorini.derivative.points import TapePoint
 from signorini.derivative.space_conditions import states_of_piece
 from signorini.derivative.view import HistoryView
 from signorini.engine.tape import Leg
 from signorini.friction.history import follow
+from signorini.friction.history.rates import NoRates
+from signorini.friction.history.space.find_rates import find_rates
 
-_NUDGE = 1e-9  # of the data: how far beyond its event a pair is looked at in an increment
+_NUDGE = 1e-9  # of the data: how far beyond its event a pair is looked at
+_WIDTH = 1e-8  # of the data: of zero at an event on a smooth cone
 
 
 def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) -> list[TapePoint] | None:
@@ -35,7 +40,7 @@ def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) ->
     """
     *before, point = view.points[: last + 1]
     pair = int(point.conditions.pair[condition])
-    if point.rates is None:
+    if point.rates is None or point.passes:
         states = _nudged(point, view.motions(last - 1)[1:] if last else None, condition)
         return [*before, replace(point, states=states)]
     on = _gone_on(point, legs[point.leg])
@@ -46,12 +51,16 @@ def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) ->
 
 
 def _gone_on(point: TapePoint, leg: Leg) -> PairStates | None:
-    """The states in which the path of a leg would go on; None where it does not, or turns on its cones."""
+    """The states in which the path of a leg would go on; None where it does not."""
     assert leg.start is not None
     assert leg.segment is not None
     law, end = point.system.law, leg.segment.end
     if point.states.codes is None and (law.law.rubs & (law.section.sides == 0)).any():
-        return None
+        rates = find_rates(replace(law, b=frozen(end.b - leg.start.b)), end, _WIDTH * (law.scale or 1.0))
+        if isinstance(rates, NoRates):
+            return None
+        part = _NUDGE * (law.scale or 1.0) / max(np.abs(rates.h).max(), np.abs(rates.r).max())
+        return states_of_piece(law, rates.state, (end.h, end.r), (end.h + part * rates.h, end.r + part * rates.r))
     pieces = follow(law, end, 2.0 * end.b - leg.start.b, leaves=lambda _: True).pieces
     if len(pieces) < 2 or pieces[1].state is None:
         return None

@@ -60,6 +60,7 @@ class TapePoint:
     h_rate, r_rate : (d, n) per unit of the part of the leg, on a path in the plane; None elsewhere
     load_rate : (d n + k,) in space, of what the equations see of the load on a path; None elsewhere
     follows : whether the piece keeps its length, so that its end moves with its beginning: nothing happens there
+    passes : in space, whether an event in the piece would not end it
     acting : (m,) pairs whose event it is; empty where the load is given
     increment : (n,) or all: whether the friction of a pair in the piece is that of its end, as in an increment
     """
@@ -78,6 +79,7 @@ class TapePoint:
     increment: bool | BoolArray
     load_rate: Array | None = None
     follows: bool = False
+    passes: bool = False
 
     @property
     def at_event(self) -> bool:
@@ -238,6 +240,7 @@ def _in_space(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePo
             acting=_NOBODY,
             increment=_late(before.state, piece.state),
             load_rate=load_rate,
+            passes=piece.passes,
         )
         if piece.factor < 1.0 or not whole:
             acting = acting_pairs(found.conditions, start, found.piece_end)

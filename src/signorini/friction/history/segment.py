@@ -50,6 +50,7 @@ class Breakpoint:
     tried : increments tried to find where it ends, in space
     rates : in the plane, of the piece that ends here
     acting : (m,) in the plane, pairs whose event ends it; empty at the end of the segment unless one is there
+    passes : in space, whether it is short enough to go on over an event
     """
 
     factor: float
@@ -59,6 +60,7 @@ class Breakpoint:
     tried: int = 0
     rates: Rates | None = None
     acting: IntArray | None = None
+    passes: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -361,9 +361,11 @@ class SpaceFollower(PathFollower):
     def _enter(self, trial: SolvedIncrement, after: PathState, tried: int) -> None:
         """Go on from the end of an increment; what is in another state than before changed at its beginning."""
         self.happens(self.now.state, replace(self.now, state=after.state))
+        passes = trial.step <= self._shortest
         self.factor = 1.0 if self.factor + trial.step >= 1.0 - LEAST_STEP else self.factor + trial.step
         self.now, self.last = after, trial.step
-        self.pieces.append(Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried))
+        end = Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried, passes=passes)
+        self.pieces.append(end)
         self.residual = max(self.residual, trial.result.residual)
 
     def ended(self, lost: NoRates) -> Segment:
