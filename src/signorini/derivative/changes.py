@@ -26,10 +26,12 @@ class FrictionChange:
     ----------
     parameter : "friction", "adhesion" or "shear_limit", or one of another law
     contact : number of the contact
+    coefficient : name of that which a step gives; empty for what the contact itself has
     """
 
     parameter: str
     contact: int
+    coefficient: str = ""
 
     def moved(self, points: Sequence[TapePoint]) -> tuple[()]:  # noqa: ARG002
         """Nothing moves at once."""
@@ -42,6 +44,9 @@ class FrictionChange:
     def bound(self, system: InterfaceSystem) -> BoundTerm:
         """Slopes, starts and kinks per unit of the parameter."""
         law, term = system.law, BoundTerm.of(system.law.pieces)
+        changed = system.friction.get(system.prepared.model.contacts[self.contact].label, "")
+        if self.parameter == "friction" and changed != self.coefficient:
+            return term
         own = system.prepared.interface.contact[system.active] == self.contact
         if law.pieces.branches == 1 and self.parameter == "friction":
             term.slopes[0, own & np.isfinite(law.pieces.slopes[0]) & (law.law.section.axes.any(axis=0))] = 1.0

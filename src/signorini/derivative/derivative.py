@@ -149,7 +149,7 @@ class Derivative:
 
     @cached_property
     def friction(self) -> ByName:
-        """By contact, per unit of the coefficient."""
+        """By contact, per unit of the coefficient; by "contact@step" of one that a step gives."""
         return self._all("friction")
 
     @cached_property

@@ -14,6 +14,7 @@ from signorini.derivative.derivative import Derivative, TapedHistory, split
 from signorini.derivative.functionals import value
 from signorini.derivative.moduli import with_material
 from signorini.derivative.parameters import given_value, names_of
+from signorini.derivative.step_friction import coefficients
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.solve import solve_prepared
 from signorini.engine.tape import Tape
@@ -81,7 +82,8 @@ class AnswerFunction:
     def _given(self, kind: str, name: str) -> Array:
         """What the model has of a parameter."""
         known, model = names_of(self._prepared, kind), self._prepared.model
-        if name not in known or kind in ("adhesion", "shear_limit"):
+        by_step = kind == "friction" and name in coefficients(model)
+        if name not in known or by_step or kind in ("adhesion", "shear_limit"):
             raise InputError(f"'{kind}.{name}' is no input that can change", where=("inputs",))
         if kind == "gap":
             own = [contact.label for contact in model.contacts].index(name)

@@ -11,7 +11,7 @@ the piece before. Nothing else is remembered. In space a pair that slips may tur
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import islice
 
@@ -76,11 +76,13 @@ class InterfaceSystem:
     Parameters
     ----------
     prepared : condensed
+    friction : by contact whose friction some step has changed, the name of the coefficient that it has
     """
 
-    def __init__(self, prepared: Prepared) -> None:
+    def __init__(self, prepared: Prepared, friction: Mapping[str, str]) -> None:
         paths = prepared.paths
         self.prepared, self.condensed, self.law = prepared, paths.condensed, paths.law
+        self.friction = friction
         self.active = np.flatnonzero(self.condensed.active)
         self.root: Array = self.condensed.root
         self.directions, self.pairs = prepared.interface.directions, len(self.active)

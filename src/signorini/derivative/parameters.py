@@ -12,6 +12,7 @@ from signorini.derivative.changes import FrictionChange, GapChange, LoadChange
 from signorini.derivative.moduli import ModulusChange, with_material
 from signorini.derivative.pair_change import between_bodies
 from signorini.derivative.recursion import Change
+from signorini.derivative.step_friction import coefficients
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError, one_of
 from signorini.law.friction import Coulomb
@@ -37,7 +38,8 @@ def names_of(prepared: Prepared, kind: str) -> list[str]:
     if kind not in KINDS and kind != "gap":
         raise InputError(one_of(kind, [*KINDS, "gap"], "kind of parameter"))
     if kind in ("interference", "gap", *_LAWS):
-        return [contact.label for contact in model.contacts if not contact.tied]
+        given = coefficients(model) if kind == "friction" else {}
+        return [*(contact.label for contact in model.contacts if not contact.tied), *given]
     if kind == "load":
         return list(prepared.loads)
     if kind == "support":
@@ -95,6 +97,8 @@ def given_value(prepared: Prepared, kind: str, name: str) -> float:
         return 1.0
     if kind in ("E", "nu", "expansion"):
         return float(getattr(next(body.material for body in model.bodies if body.name == name), kind))
+    if kind == "friction" and name in (steps := coefficients(model)):
+        return steps[name]
     contact = next(contact for contact in model.contacts if contact.label == name)
     found = contact.constant_interference if kind == "interference" else getattr(contact, kind)
     return float(found) if isinstance(found, int | float) else np.nan
@@ -116,11 +120,11 @@ def _friction(prepared: Prepared, kind: str, name: str) -> FrictionChange:
     InputError
         Where the contact has none that could change.
     """
-    model = prepared.model
-    number = [contact.label for contact in model.contacts].index(name)
+    model, labels = prepared.model, [contact.label for contact in prepared.model.contacts]
+    if kind == "friction" and name in coefficients(model):
+        return FrictionChange(parameter=kind, contact=labels.index(name.rpartition("@")[0]), coefficient=name)
+    number = labels.index(name)
     law = model.contacts[number].law
-    if any(name in step.friction for step in model.steps):
-        raise InputError(f"steps change the friction of contact '{name}'; its parameters are not one number")
     if not isinstance(law, Coulomb) or isinstance(law.friction, tuple) or callable(law.friction):
         raise InputError(f"the friction of contact '{name}' is not one number")
     if kind == "shear_limit" and law.shear_limit is None:

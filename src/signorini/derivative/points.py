@@ -32,6 +32,7 @@ from signorini.derivative.space_conditions import (
     space_slips,
     states_of_piece,
 )
+from signorini.derivative.step_friction import in_force
 from signorini.engine.tape import Leg, Tape
 from signorini.errors import InputError
 from signorini.friction.history import PathState
@@ -150,8 +151,10 @@ def tape_points(tape: Tape) -> list[TapePoint]:
     """The points of a history, in order."""
     systems: dict[int, InterfaceSystem] = {}
     points: list[TapePoint] = []
+    friction: dict[str, str] = {}
     for number, leg in enumerate(tape.legs):
-        system = systems.setdefault(id(leg.prepared), InterfaceSystem(leg.prepared))
+        friction = in_force(leg, friction)
+        system = systems.setdefault(id(leg.prepared), InterfaceSystem(leg.prepared, friction))
         if leg.segment is None:
             points += _in_increments(number, leg, system)
         else:
