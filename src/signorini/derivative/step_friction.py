@@ -21,7 +21,7 @@ def coefficients(model: Model) -> dict[str, float]:
     --------
     >>> from signorini.model.step import Step
     >>> from types import SimpleNamespace
-    >>> steps = [Step(), Step(friction={"joint": 0.2}), Step("free", friction={"joint": 0})]
+    >>> steps = [Step(), Step(friction={"joint": 0.2}), Step(name="free", friction={"joint": 0})]
     >>> coefficients(SimpleNamespace(steps=steps))
     {'joint@step 2': 0.2, 'joint@free': 0.0}
     """
