@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from signorini.engine.tape import Leg
 from signorini.model.model import Model
 
-_ROUNDING = 1e-9  # of a step: load factors that are one
+_SAME_LOAD = 1e-9  # of a step: load factors that are one
 
 
 def coefficients(model: Model) -> dict[str, float]:
@@ -42,7 +42,7 @@ def in_force(leg: Leg, before: Mapping[str, str]) -> dict[str, str]:
     before : the same in the leg before it
     """
     found = dict(before)
-    reached = math.floor(leg.low + _ROUNDING) + 1
+    reached = math.floor(leg.low + _SAME_LOAD) + 1
     for number, step in enumerate(leg.prepared.model.steps[:reached], start=1):
         found |= {contact: _name(contact, step.name, number) for contact in step.friction}
     return found
