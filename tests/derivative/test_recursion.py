@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.derivative.adjoint_terms import BoundTerm, Weights
+from signorini.derivative.block_steps import BlockSteps
 from signorini.derivative.points import tape_points
-from signorini.derivative.recursion import BoundTerm, Weights, backward, forward
+from signorini.derivative.recursion import backward, forward
 from signorini.gallery.cylinder import zhu_cylinder
 from tests.derivative.replay import replayed, replayed_in_space
 from tests.derivative.rig import rig, tilted_rig
@@ -91,3 +93,19 @@ def test_both_ways_are_those_of_a_complex_step(path, parameter):
     total = sum(np.vdot(term.motion, direction.moved([points[i]])[0][0]) for i, term in adjoint.terms.items())
     total += sum(term.along(direction.bound(where)) for where, term in adjoint.bounds.items())
     assert total == pytest.approx(expected, rel=1e-12)
+
+
+def test_points_passed_together_are_those_passed_one_by_one(path, monkeypatch):
+    """In the plane blocks of points share an inverse; where that is singular, and in space, every point has its own."""
+    points, _ = path
+    shape, some = (points[-1].system.directions, len(points[-1].system.condensed.active)), range(1, len(points), 2)
+    weights = {i: Weights(h=RAW.standard_normal(shape), r=RAW.standard_normal(shape)) for i in some}
+    together = backward(points, weights)
+    monkeypatch.setattr(BlockSteps, "back", lambda *_: None)
+    one_by_one = backward(points, weights)
+    assert together.terms.keys() == one_by_one.terms.keys()
+    for found, wanted in zip(together.stacks, one_by_one.stacks, strict=True):
+        assert found.motion == pytest.approx(wanted.motion, abs=1e-11 * np.abs(wanted.motion).max())
+    for system, wanted in one_by_one.bounds.items():
+        slopes = together.bounds[system].slopes
+        assert slopes == pytest.approx(wanted.slopes, abs=1e-11 * np.abs(wanted.slopes).max())

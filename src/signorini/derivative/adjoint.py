@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.derivative.adjoint_terms import Adjoint, Weights
 from signorini.derivative.functionals import displacement_weights, weights
 from signorini.derivative.points import TapePoint
-from signorini.derivative.recursion import Adjoint, Weights, backward
+from signorini.derivative.recursion import backward
 from signorini.derivative.view import HistoryView
 from signorini.model.outputs import Displacement, Output, Stress, WeightedSum
 

@@ -19,12 +19,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
+from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
 from signorini.derivative.body_side import BodySide, multiplier
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.low_rank import StateColumns, state_columns
 from signorini.derivative.pair_change import PairChange
 from signorini.derivative.points import TapePoint
-from signorini.derivative.recursion import Adjoint, BoundTerm
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
-from signorini.derivative.recursion import Adjoint, BoundTerm
 from signorini.law.bound import FrictionBound
 from signorini.law.friction import PairFriction
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.derivative.recursion import Weights
+from signorini.derivative.adjoint_terms import Weights
 from signorini.derivative.view import HistoryView
 from signorini.errors import InputError, one_of
 from signorini.fem.probe import StressProbe
@@ -219,12 +219,12 @@ def mean_tangent(interface: Interface, own: BoolArray) -> Array:
 def _dissipation(output: Dissipation, view: HistoryView, last: int) -> tuple[float, dict[int, Weights]]:
     """What friction has taken: trapezoids between the ends of pieces, increments with the forces at their ends."""
     history, until = view.friction, slice(last + 1)
-    h, r, active = history.h[until], history.r[until], history.active[until]
-    seen = view.pairs(output.contact) & active
-    seen[1:] &= active[:-1]
+    h, r, seen = history.h[until], history.r[until], history.moves[until] & view.pairs(output.contact)
+    known = history.known[until]
+    seen[1:] &= known[:-1, None]
     moved, pushed = np.diff(h, axis=0, prepend=0.0), np.concatenate([np.zeros_like(r[:1]), r[:-1]])
     share = (0.5 + 0.5 * history.late[until])[:, None]  # of the force at the end of the piece
-    mean, moved = (np.where(seen[:, None], part, 0.0) for part in (share * r + (1.0 - share) * pushed, moved))
+    mean, moved = (np.where(seen, part, 0.0) for part in (share * r + (1.0 - share) * pushed, moved))
     of_h, of_r = np.zeros((2, last + 1, 1 + h.shape[1], h.shape[2]))
     of_h[:, 1:], of_r[:, 1:] = -mean, -share * moved
     of_h[:-1, 1:] += mean[1:]

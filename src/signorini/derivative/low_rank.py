@@ -15,9 +15,9 @@ import numpy as np
 import scipy.linalg
 
 from signorini.arrays import Array
+from signorini.derivative.adjoint_terms import Adjoint, PointTerm
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
-from signorini.derivative.recursion import Adjoint, PointTerm
 from signorini.engine.path_states import offsets
 from signorini.linalg.protocol import Reduced
 

@@ -16,10 +16,10 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.condense.response import ByNodes
+from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.pair_change import PairChange, between_bodies
 from signorini.derivative.points import TapePoint
-from signorini.derivative.recursion import Adjoint, BoundTerm
 from signorini.derivative.view import HistoryView, displacements
 from signorini.engine.prepare import Prepared
 from signorini.fem.supports import make_constraints

@@ -17,12 +17,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, selection
+from signorini.derivative.adjoint_terms import Adjoint
 from signorini.derivative.body_side import multiplier, places_matter
 from signorini.derivative.functionals import nodes_around, stress_at
 from signorini.derivative.low_rank import combinations
 from signorini.derivative.node_differences import NodeDifferences, within
 from signorini.derivative.node_sides import SideSums
-from signorini.derivative.recursion import Adjoint
 from signorini.derivative.view import HistoryView
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary

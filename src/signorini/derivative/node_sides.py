@@ -15,12 +15,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray, selection
+from signorini.derivative.adjoint_terms import Adjoint
 from signorini.derivative.body_side import pairs_at
 from signorini.derivative.explicit import ShapeWeights
 from signorini.derivative.low_rank import Combination
 from signorini.derivative.node_differences import NodeDifferences, within
 from signorini.derivative.pair_change import asks_for_areas, bound_at
-from signorini.derivative.recursion import Adjoint
 from signorini.derivative.view import HistoryView
 from signorini.errors import InputError
 from signorini.fem.boundary import Boundary, boundary

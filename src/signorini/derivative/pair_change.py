@@ -10,8 +10,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
+from signorini.derivative.adjoint_terms import BoundTerm
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.recursion import BoundTerm
 from signorini.interface.interface import Interface
 from signorini.law.bound import FrictionBound
 from signorini.model.model import Model

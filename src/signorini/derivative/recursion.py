@@ -10,43 +10,19 @@ that an event does comes by itself. Backwards the same in transposed steps: poin
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
+from itertools import takewhile
 from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.derivative.adjoint_terms import Adjoint, BoundTerm, PassedPoints, Weights
+from signorini.derivative.block_steps import LONGEST_BLOCK, BlockSteps
 from signorini.derivative.conditions import PieceEvent
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
-from signorini.law.bound import FrictionBound
-
-
-@dataclass(kw_only=True, eq=False)
-class BoundTerm:
-    """Numbers for the friction bound of the active pairs of one system, scaled, (branches, a) each.
-
-    What a parameter changes of them, or how an output changes with them.
-
-    Attributes
-    ----------
-    slopes, starts, kinks : of the branches, and of where they begin
-    """
-
-    slopes: Array
-    starts: Array
-    kinks: Array
-
-    @classmethod
-    def of(cls, bound: FrictionBound) -> BoundTerm:
-        """Zero, for a bound."""
-        return cls(**{name: np.zeros_like(bound.slopes) for name in ("slopes", "starts", "kinks")})
-
-    def along(self, change: BoundTerm) -> float:
-        """What a change of the bound changes of the output whose term this is."""
-        return sum(float(np.vdot(getattr(self, name), getattr(change, name))) for name in ("slopes", "starts", "kinks"))
 
 
 class Change(Protocol):
@@ -77,147 +53,6 @@ class PointChange:
     r: Array
     part: float
     bound: BoundTerm | None
-
-
-@dataclass(kw_only=True, eq=False)
-class Weights:
-    """How a number changes with motions and forces of all pairs, (d, n), at a point."""
-
-    h: Array
-    r: Array
-
-    def any(self) -> bool:
-        """Whether it does."""
-        return bool(self.h.any() or self.r.any())
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PointTerm:
-    """How an output changes with what drives a point where no pair moves.
-
-    Attributes
-    ----------
-    motion : (d, a) per length, with motions of the active pairs
-    resultant : (k,) per force, with resultants of loads
-    """
-
-    motion: Array
-    resultant: Array
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class TermStack:
-    """The terms of some points of one system.
-
-    Attributes
-    ----------
-    system : the interface
-    numbers : of the points
-    motion, resultant : (p, d, a) and (p, k), as of `PointTerm`
-    """
-
-    system: InterfaceSystem
-    numbers: list[int]
-    motion: Array
-    resultant: Array
-
-    def of(self, motion: Array, resultant: Array, factors: Array) -> float:
-        """What the same motions and resultants at every point, times a factor each, change of the output.
-
-        Parameters
-        ----------
-        motion, resultant : (d, a) length and (k,) force
-        factors : (p,)
-        """
-        of_motion, of_resultant = np.tensordot(factors, self.motion, axes=1), factors @ self.resultant
-        return float(np.vdot(of_motion, motion) + of_resultant @ resultant)
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Adjoint:
-    """An output by everything that drives the points.
-
-    Attributes
-    ----------
-    stacks : of the points that matter, one a system
-    bounds : by system
-    pulled : (z,) by number of the point, of outputs of bodies: free displacements where what the output changes with
-        pulls on them
-    """
-
-    stacks: tuple[TermStack, ...]
-    bounds: dict[InterfaceSystem, BoundTerm]
-    pulled: dict[int, Array] = field(default_factory=dict)
-
-    @cached_property
-    def terms(self) -> dict[int, PointTerm]:
-        """By number of the point, those that matter alone."""
-        return {
-            i: PointTerm(motion=motion, resultant=resultant)
-            for stack in self.stacks
-            for i, motion, resultant in zip(stack.numbers, stack.motion, stack.resultant, strict=True)
-        }
-
-
-class _Passed:
-    """Points of one system that were passed backwards: what of their responses is looked at all at once.
-
-    Parameters
-    ----------
-    system : the interface
-
-    Attributes
-    ----------
-    numbers : of the points
-    bound : how the output changes with the friction of the pairs
-    """
-
-    def __init__(self, system: InterfaceSystem) -> None:
-        self.system, self.bound = system, BoundTerm.of(system.law.pieces)
-        self.numbers: list[int] = []
-        self._points: list[TapePoint] = []
-        self._free: list[Array] = []
-        self._pushed: list[Array] = []
-
-    def take(self, number: int, point: TapePoint, free: Array, pushed: Array) -> None:
-        """Take a point.
-
-        Parameters
-        ----------
-        number, point : of the point, and the point
-        free, pushed : (d n + k,) and (d - 1, n) how the output changes with its load, and with friction directly
-        """
-        self.numbers.append(number)
-        self._points.append(point)
-        self._free.append(free)
-        self._pushed.append(pushed)
-
-    def stack(self, direct: Mapping[int, Array]) -> TermStack:
-        """The terms of the points, with what is known directly of some; what they ask of friction goes to the bound."""
-        free = np.stack(self._free)
-        motion, resultant = self.system.condensed.free_transposed(free)
-        for k, i in enumerate(self.numbers):
-            if i in direct:
-                motion[k] += direct[i]
-        self._add_friction(free)
-        return TermStack(system=self.system, numbers=self.numbers, motion=motion, resultant=resultant)
-
-    def _add_friction(self, free: Array) -> None:
-        """How the output changes with the bound of pairs that slip: forces of that size beside all that is imposed."""
-        states = [point.states for point in self._points]
-        units = np.stack([known.unit for known in states])
-        if not units.any():
-            return
-        image, (_, tangents, n) = self.system.law.image, units.shape
-        rows, last = n, (1 + tangents) * n
-        pushed = free[:, :last] @ image.A[:, rows:] + free[:, last:] @ image.R[rows:].T
-        size = (units * (np.stack(self._pushed) + pushed.reshape(units.shape))).sum(axis=1)
-        pressing = size * np.maximum(np.stack([point.r[0] for point in self._points]), 0.0)
-        branch = np.stack([known.branch for known in states])
-        for j in range(len(self.bound.starts)):
-            on = branch == j
-            self.bound.starts[j] += np.where(on, size, 0.0).sum(axis=0)
-            self.bound.slopes[j] += np.where(on, pressing, 0.0).sum(axis=0)
 
 
 def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
@@ -284,36 +119,101 @@ def backward(
     weights : how the output changes with motions and forces, by number of the point
     direct : (d, a) per length, with motions of the active pairs directly, by number of the point
     """
-    passed: dict[InterfaceSystem, _Passed] = {}
-    memory: Array | None = None  # (d - 1, n) of the active pairs of the system, scaled
-    system: InterfaceSystem | None = None
-    moves = 0.0  # how the output changes with the part of the leg that is behind where the next piece begins
-    for i in range(max(weights, default=-1), -1, -1):
-        point, states = points[i], points[i].states
-        if point.system is not system:
-            memory, system = _handed(memory, system, point.system), point.system
-            known = passed.setdefault(system, _Passed(system))
+    back = _Back(points, weights, direct)
+    i = max(weights, default=-1)
+    while i >= 0:
+        i -= back.to(i)
+    stacks = tuple(one.stack(direct) for one in back.passed.values() if one.numbers)
+    return Adjoint(stacks=stacks, bounds={system: one.bound for system, one in back.passed.items()})
+
+
+class _Back:
+    """The way back through the points of a history; parameters as of `backward`.
+
+    Attributes
+    ----------
+    passed : what of every system was passed
+    """
+
+    def __init__(
+        self, points: Sequence[TapePoint], weights: Mapping[int, Weights], direct: Mapping[int, Array]
+    ) -> None:
+        self._points, self._weights, self._direct = points, weights, direct
+        self._steps: dict[InterfaceSystem, BlockSteps] = {}
+        self._memory: Array | None = None  # (d - 1, n) of the active pairs of the system, scaled
+        self._system: InterfaceSystem | None = None
+        self._moves = 0.0  # how the output changes with the part of the leg that is behind where the next piece begins
+        self.passed: dict[InterfaceSystem, PassedPoints] = {}
+
+    def to(self, i: int) -> int:
+        """Pass point i, and some before it; how many that were."""
+        point = self._points[i]
+        system, states = point.system, point.states
+        if system is not self._system:
+            self._memory, self._system = _handed(self._memory, self._system, system), system
+            self.passed.setdefault(system, PassedPoints(system))
+        assert self._memory is not None
+        if not (i + 1 < len(self._points) and self._points[i + 1].leg == point.leg):
+            self._moves = 0.0
+        asked = i in self._weights or i in self._direct or self._moves != 0.0
+        if not asked and not self._memory[~states.held].any():
+            return 1
+        return (states.codes is not None and self._block(i)) or self._one(i)
+
+    def _block(self, i: int) -> int:
+        """Pass point i in the plane and as many before it as go with it; how many that were, 0 where none do."""
+        system, points, memory = self._points[i].system, self._points, self._memory
         assert memory is not None
-        moves = moves if i + 1 < len(points) and points[i + 1].leg == point.leg else 0.0
-        h, r = np.zeros((2, system.directions, system.pairs))
-        if i in weights:
-            h, r = weights[i].h[:, system.active] / system.root, weights[i].r[:, system.active] * system.root
+        numbers = list(takewhile(lambda j: points[j].system is system, range(i, max(-1, i - LONGEST_BLOCK), -1)))
+        if system not in self._steps:
+            self._steps[system] = BlockSteps(system.law)
+        own = [points[j] for j in numbers]
+        block = self._steps[system].back(own, lambda k: self._asked(numbers[k]), memory[0])
+        if block is None:
+            return 0
+        passed, count = self.passed[system], len(block.used)
+        used = block.used | np.array([j in self._direct for j in numbers[:count]])
+        for k in np.flatnonzero(block.share):
+            passed.take_event(points[numbers[k]].event, block.share[k])
+        which = np.flatnonzero(used)
+        if len(which):
+            passed.take([numbers[k] for k in which], [own[k] for k in which], block.free[which], block.pushed[which])
+        return count
+
+    def _one(self, i: int) -> int:
+        """Pass point i alone: 1."""
+        point, points = self._points[i], self._points
+        system, states, memory = point.system, point.states, self._memory
+        assert memory is not None
+        asked = self._asked(i)
+        h, r = (asked.h, asked.r) if asked is not None else np.zeros((2, system.directions, system.pairs))
         h[1:] += memory
         memory = np.where(states.held, h[1:], 0.0)
         h[1:] -= memory
-        if h.any() or r.any() or moves or i in direct:
+        if h.any() or r.any() or self._moves or i in self._direct:
             system.ahead((points[j].system, points[j].states) for j in range(i, -1, -1))
             if point.at_event or point.follows:
                 h_rate, r_rate = _rates(point)
-                moves += float(np.vdot(h, h_rate) + np.vdot(r, r_rate))
+                self._moves += float(np.vdot(h, h_rate) + np.vdot(r, r_rate))
             if point.at_event:
-                _through_event(point, h, r, known.bound, moves)
+                event = point.event
+                share = -self._moves / event.rate
+                h[0, event.pair] += share * event.gap
+                r[0, event.pair] += share * event.pressure
+                r[1:, event.pair] += share * event.friction
+                self.passed[system].take_event(event, share)
             free = system.respond_transposed(states, h, r)
-            known.take(i, point, free, r[1:])
+            self.passed[system].take([i], [point], free[None], r[None, 1:])
             memory += (h - free[: h.size].reshape(h.shape))[1:]
-        moves = moves if point.follows else 0.0
-    stacks = tuple(one.stack(direct) for one in passed.values() if one.numbers)
-    return Adjoint(stacks=stacks, bounds={system: one.bound for system, one in passed.items()})
+        self._memory, self._moves = memory, self._moves if point.follows else 0.0
+        return 1
+
+    def _asked(self, i: int) -> Weights | None:
+        """How the output changes with motions and forces, (d, n) scaled, of the active pairs of a point."""
+        if i not in self._weights:
+            return None
+        weight, system = self._weights[i], self._points[i].system
+        return Weights(h=weight.h[:, system.active] / system.root, r=weight.r[:, system.active] * system.root)
 
 
 def _handed(memory: Array | None, before: InterfaceSystem | None, system: InterfaceSystem) -> Array:
@@ -351,22 +251,6 @@ def _of_bound(event: PieceEvent, bound: BoundTerm) -> float:
     """What a change of the friction changes of the condition of an event."""
     at = event.branch, event.pair
     return float(event.start * bound.starts[at] + event.slope * bound.slopes[at] + event.kink * bound.kinks[at])
-
-
-def _through_event(point: TapePoint, h: Array, r: Array, term: BoundTerm, moves: float) -> None:
-    """Turn how an output changes with what is at an event into how it changes with what is at its load, in place.
-
-    ``moves`` is how it changes with the part of the leg that is behind.
-    """
-    event = point.event
-    at = event.branch, event.pair
-    share = -moves / event.rate
-    h[0, event.pair] += share * event.gap
-    r[0, event.pair] += share * event.pressure
-    r[1:, event.pair] += share * event.friction
-    term.starts[at] += share * event.start
-    term.slopes[at] += share * event.slope
-    term.kinks[at] += share * event.kink
 
 
 def _rates(point: TapePoint) -> tuple[Array, Array]:

@@ -28,13 +28,15 @@ class FrictionHistory:
     Attributes
     ----------
     h, r : (p, d - 1, n) motions since the beginning, length, and forces
-    active : (p, n) pairs that the law is asked of
+    known : (p, n) pairs that the law is asked of
+    moves : (p, d - 1, n) whether pairs may have moved in a piece: the law is asked of them and does not hold them
     late : (p, n) 1 of pairs that slip under the friction at the end of a piece, 0 of those under its mean
     """
 
     h: Array
     r: Array
-    active: BoolArray
+    known: BoolArray
+    moves: BoolArray
     late: Array
 
 
@@ -117,16 +119,17 @@ class HistoryView:
         points, n = self.points, len(self.interface)
         d = points[0].system.directions
         h, r = np.zeros((2, len(points), d - 1, n))
-        active, late = np.zeros((len(points), n), dtype=np.bool_), np.zeros((len(points), n))
+        (known, late), moves = np.zeros((2, len(points), n)), np.zeros(h.shape, dtype=np.bool_)
         for system in dict.fromkeys(point.system for point in points):
             own = np.array([i for i, point in enumerate(points) if point.system is system])
             at = own[:, None, None], np.arange(d - 1)[:, None], system.active
             h[at] = np.stack([points[i].h[1:] for i in own]) / system.root
             r[at] = np.stack([points[i].r[1:] for i in own]) * system.root
-            active[own[:, None], system.active] = True
+            known[own[:, None], system.active] = 1.0
+            moves[at] = ~np.stack([points[i].states.held for i in own])
             for i in own:
                 late[i, system.active] = points[i].increment
-        return FrictionHistory(h=h, r=r, active=active, late=late)
+        return FrictionHistory(h=h, r=r, known=known > 0.0, moves=moves, late=late)
 
     def _whole(self, i: int, rows: Array) -> Array:
         system = self.points[i].system

@@ -206,7 +206,7 @@ class FrictionBound(Bound):
         return np.where(state > STICK, plain(state) + 2 * self.branch(p), state)
 
     def slope(self, state: IntArray) -> Array:
-        """(n,) Tangential force per normal force that slipping pairs gain, with its sign; 0 of others."""
+        """(..., n) Tangential force per normal force that slipping pairs gain, with its sign; 0 of others."""
         return np.asarray(SIGN[state] * self._of(self.slopes, state), dtype=np.float64)
 
     def start(self, state: IntArray) -> Array:
@@ -217,7 +217,7 @@ class FrictionBound(Bound):
         if self.branches == 1:
             return table[0]
         branch = np.where(state > STICK, (state - SLIP_PLUS) // 2, 0)
-        return np.asarray(table[branch, np.arange(len(state))], dtype=np.float64)
+        return np.asarray(table[branch, np.arange(state.shape[-1])], dtype=np.float64)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
