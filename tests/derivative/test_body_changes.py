@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.derivative.contact_sums import ContactSums
 from signorini.derivative.low_rank import state_columns
 from signorini.derivative.view import displacements
 from signorini.fem.kinematics import straining_groups
@@ -50,3 +51,22 @@ def test_a_shape_that_moves_what_is_held_by_its_place_is_refused():
     motion[model.mesh.nodes_of("pad.top")] = [1.0, 0.0]
     with pytest.raises(sg.InputError, match="hold by where they are"):
         derivative.shape(motion)
+
+
+@pytest.mark.parametrize("kind", ["plane strain", "axisymmetric"])
+def test_sums_over_contact_nodes_are_those_over_displacements_of_all_states(kind, monkeypatch):
+    """By a material with a temperature, a tilted side and a shape; outputs of contacts and of bodies."""
+    solution = sg.solve(rig(kind), tape=True)
+    motion = np.random.default_rng(4).standard_normal(solution.model.mesh.points.shape)
+    every = [sg.dissipation("joint"), sg.stress("block", 50, "xx").after(2)]
+
+    def found():
+        return [
+            (derivative.nu["pad"], derivative.expansion["block"], derivative.shape(motion))
+            for derivative in map(solution.derivative, every)
+        ]
+
+    by_sums = found()
+    monkeypatch.setattr(ContactSums, "knows", lambda _: False)
+    solution.__dict__.pop("_taped")
+    assert np.array(by_sums) == pytest.approx(np.array(found()), rel=1e-8)

@@ -6,7 +6,8 @@ With ``K u = f + B^T r`` and ``h = B u + C r + g`` a parameter changes K by K', 
     h' = B K^-1 (f' + B'^T r - K' u) + B' u + C' r + g',
 
 which is linear in the states of the history: it is found for as few combinations of them as there are, all at once, and
-kept. An output that changes with h by J and with resultants by j changes by ``J . h' + j . Z^T (f' + B'^T r - K' u)``.
+kept. An output that changes with h by J and with resultants by j changes by ``J . h' + j . Z^T (f' + B'^T r - K' u)``;
+where bodies are condensed onto contact nodes that is found without h', from sums over the history.
 """
 
 from __future__ import annotations
@@ -21,8 +22,9 @@ import scipy.sparse as sp
 from signorini.arrays import Array
 from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
 from signorini.derivative.body_side import BodySide, multiplier
+from signorini.derivative.contact_sums import ContactSums
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.low_rank import StateColumns, state_columns
+from signorini.derivative.low_rank import StateColumns, of_same_bodies, state_columns
 from signorini.derivative.pair_change import PairChange
 from signorini.derivative.points import TapePoint
 from signorini.derivative.view import HistoryView
@@ -95,13 +97,37 @@ class BodyChange:
     def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
         """What it changes of an output through all points, its friction apart."""
         found = 0.0
-        at_once = self.moved([points[i] for i in adjoint.terms])
-        for term, (motion, resultant) in zip(adjoint.terms.values(), at_once, strict=True):
+        for own in of_same_bodies(points, adjoint):
+            found_at_once = self._by_sums(points, own, adjoint) if ContactSums.knows(points[own[0]].system) else None
+            found += self._by_states(points, own, adjoint) if found_at_once is None else found_at_once
+        return found
+
+    def _by_sums(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float | None:
+        """What it changes through points of the same bodies; None where pairs see more than their contact nodes."""
+        sums, found = ContactSums(points, own, adjoint), 0.0
+        if self.pairs is not None:
+            system, J, r = sums.system, sums.motion, sums.forces
+            rows = system.condensed.active
+            B = sp.csr_array(self.pairs.B[np.tile(rows, system.directions)])
+            if not sums.meets(B):
+                return None
+            w, u = sums.on_contact(B)
+            found += float(np.vdot(r, w) + np.vdot(J, u) + self.pairs.compliance[:, rows].ravel() @ (J * r).sum(axis=1))
+            found += float(J[: system.pairs].sum(axis=1) @ self.pairs.gap[rows])
+        for name in self.loads.keys() & sums.weighted.keys():
+            found += float(self.loads[name] @ sums.weighted[name])
+        return found - sums.of_stiffness(self.stiffness)
+
+    def _by_states(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:
+        """What it changes through points of the same bodies, by displacements of their states."""
+        terms = {i: adjoint.terms[i] for i in own if i in adjoint.terms}
+        at_once, found = self.moved([points[i] for i in terms]), 0.0
+        for term, (motion, resultant) in zip(terms.values(), at_once, strict=True):
             found += float(np.vdot(term.motion, motion) + term.resultant @ resultant)
-        for i, y in adjoint.pulled.items():
-            for states in state_columns([points[i]]):
+        for i in own:
+            for states in state_columns([points[i]]) if i in adjoint.pulled else ():
                 forces = self._forces(points[i].system, states) @ states.shares
-                found += float(y @ points[i].system.prepared.constraints.on_free(forces[:, 0]))
+                found += float(adjoint.pulled[i] @ points[i].system.prepared.constraints.on_free(forces[:, 0]))
         return found
 
     def views(self, view: HistoryView) -> tuple[HistoryView, HistoryView]:

@@ -81,7 +81,7 @@ def state_columns(points: Sequence[TapePoint]) -> Iterator[StateColumns]:
 
     Chosen by pivoted Gram-Schmidt: each time the state that is farthest from combinations of those before.
     """
-    system, (names, parts) = points[0].system, _states(points)
+    system, (names, parts) = points[0].system, state_blocks(points)
     scaled = [part.reshape(len(points), -1).T / (float(np.abs(part).max(initial=0.0)) or 1.0) for part in parts]
     R, order = scipy.linalg.qr(np.concatenate(scaled), mode="r", pivoting=True, check_finite=False)
     left = np.abs(np.diag(R))
@@ -101,7 +101,7 @@ def state_columns(points: Sequence[TapePoint]) -> Iterator[StateColumns]:
         )
 
 
-def _states(points: Sequence[TapePoint]) -> tuple[list[str], list[Array]]:
+def state_blocks(points: Sequence[TapePoint]) -> tuple[list[str], list[Array]]:
     """Names of loads, and motions, forces (d, a), 1 and factors of the loads, and offsets (d, a), of every point."""
     system = points[0].system
     names = sorted({name for point in points for name in point.load.factors})
@@ -113,6 +113,20 @@ def _states(points: Sequence[TapePoint]) -> tuple[list[str], list[Array]]:
     ]
 
 
+def term_blocks(system: InterfaceSystem, numbers: Sequence[int], adjoint: Adjoint) -> list[Array]:
+    """Motions J (p, d, a) and resultants (p, k) of an output at points of one system, by their numbers."""
+    none = PointTerm(motion=np.zeros((system.directions, system.pairs)), resultant=np.zeros(system.motions))
+    terms = [adjoint.terms.get(i, none) for i in numbers]
+    return [np.array([term.motion for term in terms]), np.array([term.resultant for term in terms])]
+
+
+def of_same_bodies(points: Sequence[TapePoint], adjoint: Adjoint) -> Iterator[list[int]]:
+    """Numbers of the points that matter to an output, those of the same bodies together."""
+    numbers = sorted({*adjoint.terms, *adjoint.pulled})
+    for bodies in dict.fromkeys(points[i].system.bodies for i in numbers):
+        yield [i for i in numbers if points[i].system.bodies == bodies]
+
+
 def combinations(points: Sequence[TapePoint], adjoint: Adjoint) -> Iterator[Combination]:
     """Combinations of the points that matter to an output, some at once.
 
@@ -121,24 +135,16 @@ def combinations(points: Sequence[TapePoint], adjoint: Adjoint) -> Iterator[Comb
     points : of the history
     adjoint : of the output
     """
-    numbers = sorted({*adjoint.terms, *adjoint.pulled})
-    for bodies in dict.fromkeys(points[i].system.bodies for i in numbers):
-        own = [i for i in numbers if points[i].system.bodies == bodies]
+    for own in of_same_bodies(points, adjoint):
         yield from _of_bodies(points, own, adjoint)
 
 
 def _of_bodies(points: Sequence[TapePoint], own: list[int], adjoint: Adjoint) -> Iterator[Combination]:
     """Combinations of points of the same bodies, by singular values of the sum of their products."""
     system = points[own[0]].system
-    names, right = _states([points[i] for i in own])
+    names, right = state_blocks([points[i] for i in own])
     pulled = [i for i in own if i in adjoint.pulled]
-    none = PointTerm(motion=np.zeros((system.directions, system.pairs)), resultant=np.zeros(system.motions))
-    terms = [adjoint.terms.get(i, none) for i in own]
-    left = [
-        np.array([term.motion for term in terms]),
-        np.array([term.resultant for term in terms]),
-        np.array([[float(i == at) for at in pulled] for i in own]),
-    ]
+    left = [*term_blocks(system, own, adjoint), np.array([[float(i == at) for at in pulled] for i in own])]
     first, second = _largest(left, right)
     count = first[0].shape[-1]
     for begin in range(0, count, _COLUMNS):

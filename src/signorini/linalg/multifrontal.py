@@ -18,13 +18,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy import sparse
 
 from signorini.arrays import Array, Int32Array
 from signorini.cores import number_of_threads
 from signorini.crew import Crew
-from signorini.linalg import _front_solves, _fronts
+from signorini.linalg import _front_products, _front_solves, _fronts
 from signorini.linalg._blas import scratch
-from signorini.linalg._graph import Elimination
+from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.plan import Plan, Plans, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
@@ -83,6 +84,32 @@ class MultifrontalFactorisation:
         u = np.empty((self.n, len(y)))
         u[self.plan.order] = y.T
         return like(f, u)
+
+    def products(self, M: Array, pattern: sparse.csr_array) -> Array:
+        """Entries of ``E M E^T``, E the displacements that follow those of the interface, summed over both triangles.
+
+        Parameters
+        ----------
+        M : (m, m) symmetric, in the order of the interface
+        pattern : (n, n) with entries where the matrix has some, in any order; what they are does not matter
+
+        Returns
+        -------
+        (nnz,) of the entries of the pattern: the product with data of a symmetric matrix is its sum with ``E M E^T``
+        """
+        rows = Rows(pattern.indptr.astype(np.int32), pattern.indices.astype(np.int32), np.zeros(pattern.nnz))
+        place = np.empty(self.n, dtype=np.int32)
+        place[self.plan.order] = np.arange(self.n, dtype=np.int32)
+        with one_thread():
+            _front_products.products(
+                self.plan.fronts,
+                self.factor,
+                np.ascontiguousarray(M[np.ix_(self.slots, self.slots)]),
+                rows,
+                Elimination(self.plan.order, place),
+                scratch(),
+            )
+        return rows.data
 
     def _solve(self, half: Callable[..., None], y: Array) -> None:
         with one_thread():

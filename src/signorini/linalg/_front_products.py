@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Products of displacements inside, from those of the interface, without any displacement: down the tree of fronts.
+
+With E the displacements inside under those of the interface, ``E = [-K_ii^-1 K_ic; 1]``, and a symmetric matrix M of
+the interface, entries of ``E M E^T`` are asked for where the matrix has entries. For the k unknowns that a front
+eliminates and the r below them E is ``-L_kk^-T L_rk^T``: from the products P of those below, which are some of its
+parent's, follow
+
+    P_kr = -L_kk^-T L_rk^T P_rr,    P_kk = -P_kr L_rk L_kk^-1
+
+as many operations as two factorisations take, however many displacements M is a sum over.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signorini.arrays import Array, Int32Array
+from signorini.compilation import kernel, part
+from signorini.linalg._blas import AS_STORED, FIRST_TRANSPOSED, Scratch, StoredMatrix, gemm, trsm
+from signorini.linalg._fronts import list_below, sizes
+from signorini.linalg._graph import Elimination, Rows
+from signorini.linalg.plan import Fronts
+
+
+@kernel()
+def deepest(fronts: Fronts) -> int:
+    """Entries of all fronts from the interface to a leaf, where those are most.
+
+    Parameters
+    ----------
+    fronts : of the plan
+    """
+    need, most = np.zeros(len(fronts.parent), np.int64), 0
+    for t in range(len(fronts.parent) - 1, -1, -1):
+        _, k, r = sizes(fronts, t)
+        need[t] = (k + r) ** 2 + (need[fronts.parent[t]] if fronts.parent[t] >= 0 else 0)
+        most = max(most, need[t])
+    return most
+
+
+@kernel()
+def products(fronts: Fronts, factor: Array, M: Array, pattern: Rows, elimination: Elimination, s: Scratch) -> None:
+    """Overwrite the data of a symmetric pattern by entries of ``E M E^T``: of both triangles in one, the other stays 0.
+
+    Parameters
+    ----------
+    fronts, factor : as factorised
+    M : (m, m) symmetric, in the order of elimination
+    pattern : entries where the matrix has some; the data are zero on entry
+    elimination : the order
+    s : of BLAS
+    """
+    inside, n = len(elimination.order) - len(M), len(elimination.order)
+    room = np.empty(deepest(fronts))
+    path, begin = np.empty(len(fronts.parent) + 1, np.int64), np.zeros(len(fronts.parent) + 2, np.int64)
+    local, below, height = np.empty(n, np.int32), np.empty(n, np.int32), 0
+    for t in range(len(fronts.parent) - 1, -1, -1):
+        a, k, r = sizes(fronts, t)
+        while height > 0 and path[height - 1] != fronts.parent[t]:
+            height -= 1
+        path[height], size = t, k + r
+        begin[height + 1] = begin[height] + size * size
+        P = room[begin[height] : begin[height + 1]]
+        list_below(fronts, t, below)
+        if fronts.parent[t] < 0:
+            for u in range(len(M)):
+                local[inside + u] = u
+            _gather(M.ravel(), len(M), local, below[:r], P, k)
+        else:
+            _number(fronts, fronts.parent[t], local)
+            above = room[begin[height - 1] : begin[height]]
+            _gather(above, int(np.sqrt(len(above))), local, below[:r], P, k)
+        height += 1
+        if r > 0:
+            _eliminate(k, r, factor.ctypes.data + 8 * fronts.panel[t], P.ctypes.data, s)
+        else:
+            P[:] = 0.0
+        _number(fronts, t, local)
+        _write(pattern, elimination, a, k, local, P, size)
+    _write_interface(pattern, elimination, inside, M)
+
+
+@part()
+def _number(fronts: Fronts, t: int, local: Int32Array) -> None:
+    """Write where the unknowns of front t stand in it."""
+    a, k, _ = sizes(fronts, t)
+    for j in range(k):
+        local[a + j] = j
+    at = k
+    for p in range(fronts.begin[t], fronts.begin[t + 1]):
+        for u in range(fronts.unknown[fronts.row[p]], fronts.unknown[fronts.row[p] + 1]):
+            local[u] = at
+            at += 1
+
+
+@part()
+def _gather(above: Array, size: int, local: Int32Array, below: Int32Array, P: Array, k: int) -> None:
+    """Take the products of unknowns below a front from those of its parent, (size, size), upper triangle."""
+    own = k + len(below)
+    for c in range(len(below)):
+        j = local[below[c]]
+        for i in range(c + 1):
+            row = local[below[i]]
+            value = above[max(j, row) * size + min(j, row)]
+            P[(k + c) * own + k + i] = value
+            P[(k + i) * own + k + c] = value
+
+
+@part()
+def _eliminate(k: int, r: int, panel: int, P: int, s: Scratch) -> None:
+    """Products of what a front eliminates, also with what is below it, from the address of its columns into P's."""
+    size = k + r
+    own, lower = StoredMatrix(panel, size), StoredMatrix(panel + 8 * k, size)
+    inner, mixed = StoredMatrix(P, size), StoredMatrix(P + 8 * k * size, size)
+    rest = StoredMatrix(P + 8 * k * (size + 1), size)
+    gemm(FIRST_TRANSPOSED, k, r, r, lower, rest, s.zero, mixed, s)
+    trsm(s.left, s.transposed, k, r, own, mixed, s)
+    gemm(AS_STORED, k, k, r, mixed, lower, s.zero, inner, s)
+    trsm(s.right, s.plain, k, k, own, inner, s)
+
+
+@part()
+def _write(pattern: Rows, elimination: Elimination, a: int, k: int, local: Int32Array, P: Array, size: int) -> None:
+    """Write entries of the rows of unknowns that a front eliminates, with all that go later."""
+    (indptr, indices, data), (order, place) = pattern, elimination
+    for j in range(k):
+        for p in range(indptr[order[a + j]], indptr[order[a + j] + 1]):
+            i = place[indices[p]]
+            if i > a + j:
+                data[p] = 2.0 * P[max(local[i], j) * size + min(local[i], j)]
+            elif i == a + j:
+                data[p] = P[j * size + j]
+
+
+@part()
+def _write_interface(pattern: Rows, elimination: Elimination, inside: int, M: Array) -> None:
+    """Write entries between unknowns of the interface."""
+    (indptr, indices, data), (order, place) = pattern, elimination
+    for u in range(len(M)):
+        for p in range(indptr[order[inside + u]], indptr[order[inside + u] + 1]):
+            v = place[indices[p]] - inside
+            if v >= u:
+                data[p] = M[u, v] if u == v else 2.0 * M[u, v]
