@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.fem.node_work import add_node_work
+from signorini.fem.node_work import Products, add_node_work
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness
 from signorini.gallery.cylinder import zhu_cylinder
@@ -54,7 +54,7 @@ def test_the_work_of_stresses_by_the_place_of_every_node(family, formulation):
     space = space.at(mesh.points + 0.03 * random.standard_normal(mesh.points.shape), np.zeros(0))
     w, u = random.standard_normal((2, space.number_of_dofs, 3))
     found, motion = np.zeros_like(mesh.points), random.standard_normal(mesh.points.shape)
-    add_node_work(found, space, model, w, u)
+    add_node_work(found, space, model, Products.of(w, u))
     high, low = (
         np.vdot(w, stiffness(space.at(space.mesh.points + step * motion, np.zeros(0)), model) @ u)
         for step in (1e-6, -1e-6)

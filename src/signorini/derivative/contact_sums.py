@@ -24,6 +24,7 @@ from signorini.derivative.adjoint_terms import Adjoint
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.low_rank import state_blocks, term_blocks
 from signorini.derivative.points import TapePoint
+from signorini.fem.node_work import Products
 from signorini.fem.stiffness import reduced_stiffness
 from signorini.linalg.multifrontal import MultifrontalFactorisation
 from signorini.linalg.protocol import Reduced
@@ -42,6 +43,7 @@ class ContactSums:
     ----------
     system : the interface
     motion, forces : (d a, p) J, and the forces of the active pairs
+    one : (p,) ones
     factors : by load, (p,)
     """
 
@@ -51,6 +53,7 @@ class ContactSums:
         left = term_blocks(self.system, numbers, adjoint)
         (h, r, known, offset), (J, resultant) = ([np.moveaxis(part, 0, -1) for part in side] for side in (right, left))
         self.motion, self.forces = J.reshape(-1, len(numbers)), r.reshape(-1, len(numbers))
+        self.one = known[0]
         self.factors = {name: factor for name, factor in zip(names, known[1:], strict=True) if factor.any()}
         condensed, m = self.system.condensed, len(self.system.condensed.dofs)
         still, load = np.zeros((m, len(numbers))), np.zeros((m, len(numbers)))
@@ -78,6 +81,15 @@ class ContactSums:
         assert isinstance(response.factorisation, MultifrontalFactorisation)
         M = self._w @ self._u.T
         return response.factorisation.products(0.5 * (M + M.T), of_free)
+
+    def of_cells(self, factor: float) -> Products:
+        """The sum for dofs that share a cell, times a factor; no dof follows from others in equations."""
+        K, prepared = self.system.prepared.K, self.system.prepared
+        of_free = reduced_stiffness(sp.csr_array((np.ones(K.nnz), K.indices, K.indptr), K.shape), self._transform)
+        w, u = (np.ascontiguousarray(part) for part in self.fields)
+        indptr, indices = (part.astype(np.int64) for part in (of_free.indptr, of_free.indices))
+        free = prepared.constraints.free
+        return Products(factor * w, u, free, indptr, indices, factor * self.products(of_free))
 
     @cached_property
     def fields(self) -> tuple[Array, Array]:

@@ -114,33 +114,38 @@ def state_blocks(points: Sequence[TapePoint]) -> tuple[list[str], list[Array]]:
 
 
 def term_blocks(system: InterfaceSystem, numbers: Sequence[int], adjoint: Adjoint) -> list[Array]:
-    """Motions J (p, d, a) and resultants (p, k) of an output at points of one system, by their numbers."""
+    """Motions J (p, d, a) and resultants (p, k) of an output at points of one system.
+
+    Parameters
+    ----------
+    system, numbers : the interface, and the points
+    adjoint : of the output
+    """
     none = PointTerm(motion=np.zeros((system.directions, system.pairs)), resultant=np.zeros(system.motions))
     terms = [adjoint.terms.get(i, none) for i in numbers]
     return [np.array([term.motion for term in terms]), np.array([term.resultant for term in terms])]
 
 
 def of_same_bodies(points: Sequence[TapePoint], adjoint: Adjoint) -> Iterator[list[int]]:
-    """Numbers of the points that matter to an output, those of the same bodies together."""
+    """Numbers of the points that matter to an output, those of the same bodies together.
+
+    Parameters
+    ----------
+    points, adjoint : of the history, and of the output
+    """
     numbers = sorted({*adjoint.terms, *adjoint.pulled})
     for bodies in dict.fromkeys(points[i].system.bodies for i in numbers):
         yield [i for i in numbers if points[i].system.bodies == bodies]
 
 
-def combinations(points: Sequence[TapePoint], adjoint: Adjoint) -> Iterator[Combination]:
-    """Combinations of the points that matter to an output, some at once.
+def combinations_of(points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> Iterator[Combination]:
+    """Combinations of points of the same bodies, some at once, by singular values of the sum of their products.
 
     Parameters
     ----------
-    points : of the history
+    points, own : of the history, and numbers of those of the same bodies that matter to the output
     adjoint : of the output
     """
-    for own in of_same_bodies(points, adjoint):
-        yield from _of_bodies(points, own, adjoint)
-
-
-def _of_bodies(points: Sequence[TapePoint], own: list[int], adjoint: Adjoint) -> Iterator[Combination]:
-    """Combinations of points of the same bodies, by singular values of the sum of their products."""
     system = points[own[0]].system
     names, right = state_blocks([points[i] for i in own])
     pulled = [i for i in own if i in adjoint.pulled]

@@ -10,7 +10,7 @@ with adjoint displacements w, and what the output has of areas, normals and plac
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,8 +19,9 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, selection
 from signorini.derivative.adjoint_terms import Adjoint
 from signorini.derivative.body_side import multiplier, places_matter
+from signorini.derivative.contact_sums import ContactSums
 from signorini.derivative.functionals import nodes_around, stress_at
-from signorini.derivative.low_rank import combinations
+from signorini.derivative.low_rank import combinations_of, of_same_bodies
 from signorini.derivative.node_differences import NodeDifferences, within
 from signorini.derivative.node_sides import SideSums
 from signorini.derivative.view import HistoryView
@@ -28,7 +29,7 @@ from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
 from signorini.fem.loads import load_forces
-from signorini.fem.node_work import add_node_work
+from signorini.fem.node_work import Products, add_node_work
 from signorini.fem.space import ON_AXIS, Space
 from signorini.model.conditions import BODY_LOADS, Load
 from signorini.model.outputs import Output, Stress, WeightedSum
@@ -61,14 +62,22 @@ def node_gradient(view: HistoryView, adjoint: Adjoint, output: Output) -> Array:
     free, found = _free(view), np.zeros_like(space.mesh.points)
     weighted = {load.label: np.zeros(space.number_of_dofs) for load in model.loads}
     sides = SideSums(view=view, adjoint=adjoint, output=output)
-    for columns in combinations(view.points, adjoint):
-        w, u = columns.adjoint, columns.displacement
-        add_node_work(found, space, model, -w, u)
-        if model.foundations:
-            found -= _of_foundations(view, free, w, u)
-        for name, share in weighted.items():
-            share += w @ columns.factor(name)
-        sides.add(columns)
+    for own in of_same_bodies(view.points, adjoint):
+        sums = _sums(view, own, adjoint, sides.rows)
+        if sums is not None:
+            add_node_work(found, space, model, sums.of_cells(-1.0))
+            for name in sums.weighted.keys() & weighted.keys():
+                weighted[name] += sums.weighted[name]
+            sides.add(sums.system, sums.motion, sums.forces, *sums.on_contact(sides.rows), sums.one)
+            continue
+        for columns in combinations_of(view.points, own, adjoint):
+            w, u = columns.adjoint, columns.displacement
+            add_node_work(found, space, model, Products.of(-w, u))
+            if model.foundations:
+                found -= _of_foundations(view, free, w, u)
+            for name, share in weighted.items():
+                share += w @ columns.factor(name)
+            sides.add(columns.system, columns.motion, columns.forces, sides.rows @ w, sides.rows @ u, columns.one)
     for i, load in enumerate(model.loads):
         if _has_shape(load, model.mesh.boundaries) and weighted[load.label].any():
             found += multiplier(prepared, load.label) * _of_load(view, free, i, weighted[load.label])
@@ -77,6 +86,22 @@ def node_gradient(view: HistoryView, adjoint: Adjoint, output: Output) -> Array:
         if isinstance(part, Stress):
             found += factor * _of_stress(view, part)
     return np.where(free, found, 0.0)
+
+
+def _sums(view: HistoryView, own: Sequence[int], adjoint: Adjoint, rows: sp.csr_array) -> ContactSums | None:
+    """Sums over points of the same bodies; None where they do not tell all that is asked for.
+
+    Parameters
+    ----------
+    view, own, adjoint : the history, numbers of the points, and the output's way back
+    rows : (k, dofs) of displacements that pairs may see
+    """
+    system = view.points[own[0]].system
+    equations = (system.prepared.constraints.free == -2).any()  # give dofs from others
+    if equations or view.model.foundations or not ContactSums.knows(system):
+        return None
+    sums = ContactSums(view.points, own, adjoint)
+    return sums if sums.meets(rows) else None
 
 
 def _free(view: HistoryView) -> BoolArray:

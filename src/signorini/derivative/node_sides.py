@@ -18,7 +18,7 @@ from signorini.arrays import Array, BoolArray, IntArray, selection
 from signorini.derivative.adjoint_terms import Adjoint
 from signorini.derivative.body_side import pairs_at
 from signorini.derivative.explicit import ShapeWeights
-from signorini.derivative.low_rank import Combination
+from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.node_differences import NodeDifferences, within
 from signorini.derivative.pair_change import asks_for_areas, bound_at
 from signorini.derivative.view import HistoryView
@@ -47,13 +47,26 @@ class SideSums:
     _columns: list[tuple[Array, Array, Array, Array]] = field(default_factory=list, init=False)
     _gap: list[Array] = field(default_factory=list, init=False)
 
-    def add(self, columns: Combination) -> None:
-        """Add combinations of points: J, r of all pairs, w and u of the dofs that pairs see, and sums of gaps."""
-        system, n = columns.system, len(self.view.interface)
+    def add(self, system: InterfaceSystem, motion: Array, forces: Array, w: Array, u: Array, one: Array) -> None:
+        """Add points, or combinations of some: k of them.
+
+        Parameters
+        ----------
+        system : the interface
+        motion, forces : (d, a, k) or (d a, k) J, and forces of the active pairs
+        w, u : (rows, k) adjoint and actual displacements of what pairs may see
+        one : (k,) sums of what is 1 at every point
+        """
+        n = len(self.view.interface)
         every = selection(np.flatnonzero(np.tile(system.condensed.active, system.directions)), system.directions * n).T
-        J, r = (every @ part.reshape(every.shape[1], -1) for part in (columns.motion, columns.forces))
-        self._columns.append((J, r, columns.adjoint[self._dofs], columns.displacement[self._dofs]))
-        self._gap.append(J[:n] @ columns.one)
+        J, r = (every @ part.reshape(every.shape[1], -1) for part in (motion, forces))
+        self._columns.append((J, r, w, u))
+        self._gap.append(J[:n] @ one)
+
+    @cached_property
+    def rows(self) -> sp.csr_array:
+        """(rows, dofs) Of the displacements that pairs may see."""
+        return selection(self._dofs, self.view.space.number_of_dofs)
 
     def gradient(self, free: BoolArray) -> Array:
         """(nodes, d) By the places of nodes, of which some coordinates are free (nodes, d)."""

@@ -18,6 +18,7 @@ Eshelby (1975), The elastic energy-momentum tensor, Journal of Elasticity 5:321.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -34,40 +35,67 @@ from signorini.model.model import Model
 _STEP = 1e-5  # of the size of a cell: differences of its stiffness are right to 1e-10 then
 
 
-def add_node_work(found: Array, space: Space, model: Model, w: Array, u: Array) -> None:
+class Products(NamedTuple):
+    """Sums of products of displacements, of two dofs of a cell: of columns, and of others known as sums alone.
+
+    Attributes
+    ----------
+    w, u : (dofs, k) displacements, k of either
+    free : (dofs,) places of dofs in the sums; negative where there is none
+    indptr, indices, data : of the sums, by rows; those of both triangles in either or in one
+    """
+
+    w: Array
+    u: Array
+    free: IntArray
+    indptr: IntArray
+    indices: IntArray
+    data: Array
+
+    @classmethod
+    def of(cls, w: Array, u: Array) -> Products:
+        """Of columns alone.
+
+        Parameters
+        ----------
+        w, u : (dofs, k)
+        """
+        none = np.zeros(0, dtype=np.int64)
+        return cls(np.ascontiguousarray(w), np.ascontiguousarray(u), np.full(len(w), -1), none, none, np.zeros(0))
+
+
+def add_node_work(found: Array, space: Space, model: Model, products: Products) -> None:
     """Add ``d(sum_k w_k . K u_k) / dx`` to (nodes, d), where K depends on the places x of the nodes.
 
     Parameters
     ----------
     found : added to, work per length
     space, model : the mesh and what is on it
-    w, u : (dofs, k) displacements, k of either
+    products : of displacements w and u
     """
     d, c = space.dimension, space.components
     law = law_tensor(elasticities(model), hoop=model.axisymmetric)
     terms = np.argwhere((law != 0.0).any(axis=0))
     entries, values = np.column_stack([terms[:, 0], terms[:, 2], terms[:, 1], terms[:, 3]]), law[:, *terms.T]
-    first, second = np.ascontiguousarray(w), np.ascontiguousarray(u)
     for group in straining_groups(space, model):
         if group.formulation != "standard":
-            np.add.at(found, group.cells, _by_differences(space, model, group, w, u))
+            np.add.at(found, group.cells, _by_differences(space, model, group, products))
             continue
         at = np.einsum("qk,mki->mqi", group.block.values, space.mesh.points[group.cells])
         weights = measure(model, at, group.numbers) * group.block.weights
         of_cells = (np.ascontiguousarray(group.cells), group.body, np.ascontiguousarray(weights))
         block = (group.block.values, np.ascontiguousarray(group.block.gradients))
-        _add(found, space.mesh.points, of_cells, block, (entries, np.ascontiguousarray(values)), first, second, c, d)
+        _add(found, space.mesh.points, of_cells, block, (entries, np.ascontiguousarray(values)), products, c, d)
 
 
-def _by_differences(space: Space, model: Model, group: Group, w: Array, u: Array) -> Array:
+def _by_differences(space: Space, model: Model, group: Group, products: Products) -> Array:
     """(m, k, d) Of the nodes of the cells of a group, each cell on nodes of its own."""
     block, d = group.block, space.dimension
     alone = replace(block, cells=np.arange(block.cells.size).reshape(block.cells.shape))
     apart = replace(group, block=alone)
     places = space.mesh.points[block.cells]
     size = np.ptp(places, axis=1).max(axis=1)
-    rows = space.dofs(group.cells).reshape(len(group.index), -1)
-    products = np.einsum("mik,mjk->mij", w[rows], u[rows])
+    sums = _of_cells(np.ascontiguousarray(group.cells), space.components, products)
     found = np.empty((*group.cells.shape, d))
     for a, i in np.ndindex(found.shape[1:]):
         step = np.zeros_like(places)
@@ -76,14 +104,15 @@ def _by_differences(space: Space, model: Model, group: Group, w: Array, u: Array
             stiffness(space.at((places + way * step).reshape(-1, d), np.zeros(0)), model, [apart]).data
             for way in (-1.0, 1.0)
         )
-        change = ((high - low).reshape(products.shape) * products).sum(axis=(1, 2))
+        change = ((high - low).reshape(sums.shape) * sums).sum(axis=(1, 2))
         found[:, a, i] = change / (2.0 * _STEP * size[group.index])
     return found
 
 
 @part(fastmath={"reassoc", "contract"})
-def _products(cell: IntArray, c: int, w: Array, u: Array, M: Array) -> None:
-    """Overwrite M, (k c, k c), by the products of all displacements of the nodes of a cell, summed over the columns."""
+def _products(cell: IntArray, c: int, products: Products, M: Array) -> None:
+    """Overwrite M, (k c, k c), by the sums of products of all displacements of the nodes of a cell."""
+    w, u, free, indptr, indices, data = products
     columns = w.shape[1]
     for a in range(len(cell)):
         for r in range(c):
@@ -94,7 +123,28 @@ def _products(cell: IntArray, c: int, w: Array, u: Array, M: Array) -> None:
                     total = 0.0
                     for k in range(columns):
                         total += w[row, k] * u[other, k]
+                    if free[row] >= 0 and free[other] >= 0:
+                        for p in range(indptr[free[row]], indptr[free[row] + 1]):
+                            if indices[p] == free[other]:
+                                total += data[p]
+                                break
                     M[a * c + r, b * c + s] = total
+
+
+@kernel()
+def _of_cells(cells: IntArray, c: int, products: Products) -> Array:
+    """(m, k c, k c) Sums of products of all displacements of the nodes of cells (m, k).
+
+    Parameters
+    ----------
+    cells, c : their nodes, and components of a displacement
+    products : of displacements
+    """
+    size = cells.shape[1] * c
+    found = np.empty((len(cells), size, size))
+    for t in range(len(cells)):
+        _products(cells[t], c, products, found[t])
+    return found
 
 
 @kernel()
@@ -104,8 +154,7 @@ def _add(
     of_cells: tuple[IntArray, IntArray, Array],
     block: tuple[Array, Array],
     law: tuple[IntArray, Array],
-    w: Array,
-    u: Array,
+    products: Products,
     c: int,
     d: int,
 ) -> None:
@@ -118,7 +167,7 @@ def _add(
     of_cells : (m, k) nodes, (m,) materials and (m, q) weights times thickness or circumference
     block : (q, k) shape functions and (q, k, d) their reference gradients
     law : (t, 4) numbers r, s, i, j and (n, t) values of ``C_risj``
-    w, u : (dofs, k)
+    products : of displacements
     c, d : components of a displacement and of a place
     """
     cells, material, weights = of_cells
@@ -130,7 +179,7 @@ def _add(
     J, I = np.eye(3), np.empty((3, 3))  # noqa: E741
     T, H, Q = np.empty((c, e, nodes * c)), np.empty((c, e, c, e)), np.empty((d, e))
     for t in range(len(cells)):
-        _products(cells[t], c, w, u, M)
+        _products(cells[t], c, products, M)
         for a in range(nodes):
             for m in range(d):
                 x[a, m] = points[cells[t, a], m]
