@@ -5,7 +5,9 @@ import numpy as np
 import pytest
 from scipy import sparse
 
+from signorini.errors import InputError
 from signorini.linalg import registry
+from tests.helpers.lattices import lattice
 
 SIDES = {"row": (23, 1), "grid": (24, 17)}
 
@@ -33,3 +35,14 @@ def test_products_are_those_of_displacements(side, bodies):
     change = sparse.csr_array(change + change.T)
     wanted = float(np.sum((E @ M @ E.T) * change.toarray()))
     assert factorisation.products(M, change) @ change.data == pytest.approx(wanted, rel=1e-11)
+
+
+def test_entries_where_the_factor_has_none_are_refused():
+    """Two leaves of the tree are not joined in any front: what their numbers are there is anything."""
+    p = lattice((30, 20))
+    factorisation = registry.factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal")
+    first, last = factorisation.plan.order[0], factorisation.plan.order[p.K.shape[0] // 2]
+    apart = sparse.csr_array(([1.0, 1.0], ([first, last], [last, first])), shape=p.K.shape)
+    assert p.K[first, last] == 0.0
+    with pytest.raises(InputError, match="the pattern has an entry where the factor has none; expected those of the"):
+        factorisation.products(np.eye(len(p.interface)), sparse.csr_array(p.K + apart))

@@ -94,7 +94,7 @@ class ContactSums:
     @cached_property
     def fields(self) -> tuple[Array, Array]:
         """(dofs, k) Displacements of both sides beyond those that contact dofs alone cause: k pairs."""
-        rows = np.array(list(self.factors.values())).reshape(len(self.factors), -1)
+        rows = np.array(list(self.factors.values())).reshape(len(self.factors), len(self.one))
         first, second = [self._inside[:, : len(rows)]], [self._lifted]
         for at, (k, y) in enumerate(self._pulled.items()):
             first.append((self._transform @ y)[:, None])

@@ -40,8 +40,10 @@ def deepest(fronts: Fronts) -> int:
 
 
 @kernel()
-def products(fronts: Fronts, factor: Array, M: Array, pattern: Rows, elimination: Elimination, s: Scratch) -> None:
+def products(fronts: Fronts, factor: Array, M: Array, pattern: Rows, elimination: Elimination, s: Scratch) -> bool:
     """Overwrite the data of a symmetric pattern by entries of ``E M E^T``: of both triangles in one, the other stays 0.
+
+    False where the pattern has an entry outside of all fronts, where the factor has none.
 
     Parameters
     ----------
@@ -77,8 +79,10 @@ def products(fronts: Fronts, factor: Array, M: Array, pattern: Rows, elimination
         else:
             P[:] = 0.0
         _number(fronts, t, local)
-        _write(pattern, elimination, a, k, local, P, size)
+        if not _write(pattern, elimination, (a, k), local, below[:r], P):
+            return False
     _write_interface(pattern, elimination, inside, M)
+    return True
 
 
 @part()
@@ -121,16 +125,26 @@ def _eliminate(k: int, r: int, panel: int, P: int, s: Scratch) -> None:
 
 
 @part()
-def _write(pattern: Rows, elimination: Elimination, a: int, k: int, local: Int32Array, P: Array, size: int) -> None:
-    """Write entries of the rows of unknowns that a front eliminates, with all that go later."""
-    (indptr, indices, data), (order, place) = pattern, elimination
+def _write(
+    pattern: Rows, elimination: Elimination, own: tuple[int, int], local: Int32Array, below: Int32Array, P: Array
+) -> bool:
+    """Write entries of the rows of unknowns that a front eliminates, with all that go later; False if one is outside.
+
+    ``own`` is the first unknown that it eliminates, and how many.
+    """
+    (indptr, indices, data), (order, place), (a, k) = pattern, elimination, own
+    size = k + len(below)
     for j in range(k):
         for p in range(indptr[order[a + j]], indptr[order[a + j] + 1]):
             i = place[indices[p]]
-            if i > a + j:
-                data[p] = 2.0 * P[max(local[i], j) * size + min(local[i], j)]
-            elif i == a + j:
+            if i == a + j:
                 data[p] = P[j * size + j]
+            elif i > a + j:
+                at = local[i]
+                if i >= a + k and (at < k or at >= size or below[at - k] != i):
+                    return False
+                data[p] = 2.0 * P[max(at, j) * size + min(at, j)]
+    return True
 
 
 @part()

@@ -64,6 +64,8 @@ def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -
     fronts, factor, y, work, s : see `forward`
     """
     columns, n = y.shape
+    if columns == 0:  # nor is there room to list rows in
+        return
     rows = np.empty(len(work) // max(1, columns), np.int32)
     room = int(np.int64(work.ctypes.data))  # signed as other addresses are: a loop is compiled once for all
     for t in range(len(fronts.parent) - 1, -1, -1):

@@ -23,6 +23,7 @@ from scipy import sparse
 from signorini.arrays import Array, Int32Array
 from signorini.cores import number_of_threads
 from signorini.crew import Crew
+from signorini.errors import InputError
 from signorini.linalg import _front_products, _front_solves, _fronts
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination, Rows
@@ -96,19 +97,20 @@ class MultifrontalFactorisation:
         Returns
         -------
         (nnz,) of the entries of the pattern: the product with data of a symmetric matrix is its sum with ``E M E^T``
+
+        Raises
+        ------
+        InputError
+            Where the factor of the matrix has no room for an entry of the pattern.
         """
         rows = Rows(pattern.indptr.astype(np.int32), pattern.indices.astype(np.int32), np.zeros(pattern.nnz))
         place = np.empty(self.n, dtype=np.int32)
         place[self.plan.order] = np.arange(self.n, dtype=np.int32)
+        own, elimination = np.ascontiguousarray(M[np.ix_(self.slots, self.slots)]), Elimination(self.plan.order, place)
         with one_thread():
-            _front_products.products(
-                self.plan.fronts,
-                self.factor,
-                np.ascontiguousarray(M[np.ix_(self.slots, self.slots)]),
-                rows,
-                Elimination(self.plan.order, place),
-                scratch(),
-            )
+            inside = _front_products.products(self.plan.fronts, self.factor, own, rows, elimination, scratch())
+        if not inside:
+            raise InputError("the pattern has an entry where the factor has none; expected those of the matrix")
         return rows.data
 
     def _solve(self, half: Callable[..., None], y: Array) -> None:
