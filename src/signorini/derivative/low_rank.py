@@ -17,8 +17,7 @@ import scipy.linalg
 from signorini.arrays import Array
 from signorini.derivative.adjoint_terms import Adjoint, PointTerm
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.points import TapePoint
-from signorini.engine.path_states import offsets
+from signorini.derivative.points import TapePoint, factors_of, offsets_of
 from signorini.linalg.protocol import Reduced
 
 _RANK = 1e-13  # of the largest combination: one that does not matter
@@ -103,13 +102,12 @@ def state_columns(points: Sequence[TapePoint]) -> Iterator[StateColumns]:
 
 def state_blocks(points: Sequence[TapePoint]) -> tuple[list[str], list[Array]]:
     """Names of loads, and motions, forces (d, a), 1 and factors of the loads, and offsets (d, a), of every point."""
-    system = points[0].system
-    names = sorted({name for point in points for name in point.load.factors})
+    names, factors = factors_of(points)
     return names, [
         np.array([point.h / point.system.root for point in points]),
         np.array([point.r * point.system.root for point in points]),
-        np.array([[1.0, *(point.load.factors.get(name, 0.0) for name in names)] for point in points]),
-        np.array([offsets(system.prepared, point.load)[:, system.active] for point in points]),
+        np.concatenate([np.ones((1, len(points))), factors]).T,
+        offsets_of(points),
     ]
 
 

@@ -19,7 +19,7 @@ from signorini.condense.response import ByNodes
 from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.pair_change import PairChange, between_bodies
-from signorini.derivative.points import TapePoint
+from signorini.derivative.points import TapePoint, factors_of, forces_of, offsets_of
 from signorini.derivative.view import HistoryView, displacements
 from signorini.engine.prepare import Prepared
 from signorini.fem.supports import make_constraints
@@ -27,24 +27,6 @@ from signorini.interface.interface import make_interface
 from signorini.model.model import Model
 
 _STEP = 1e-4  # of a modulus: normals of tilted sides are smooth in it, differences right to a part in 1e8
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class _Contacts:
-    """Contact displacements of some points, and what makes them, a column each.
-
-    Attributes
-    ----------
-    forces : (d a, p) of the pairs
-    from_forces : (m, p) displacements of the contact dofs by loads and forces that do not grow with the modulus
-    whole : (m, p) displacements of the contact dofs
-    imposed : (dofs, p) what supports impose
-    """
-
-    forces: Array
-    from_forces: Array
-    whole: Array
-    imposed: Array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -135,12 +117,11 @@ class ModulusChange:
         """What it moves at those of the points that are of a system; kept for the last points asked for."""
         if self._kept.get(system, (None,))[0] is not points:
             numbers = np.array([i for i, point in enumerate(points) if point.system is system])
-            response, seen = _response(system), self._contacts(system, [points[i] for i in numbers])
-            motion, resultant = self._by_forces(system, seen), np.zeros((system.motions, len(numbers)))
+            own = [points[i] for i in numbers]
+            motion, resultant = self._by_forces(system, own), np.zeros((system.motions, len(numbers)))
             if self.tilts:
-                load = self._on_contact(system, seen.forces)
-                motion = motion + response.B @ response.parts.solve(load) + self._by_pairs(system, seen)
-                resultant = response.rigid.T @ load
+                motion += self._by_pairs(system, own)
+                resultant = _response(system).rigid.T @ self._on_contact(system, forces_of(own))
             self._kept[system] = points, _Moved(numbers=numbers, motion=motion.T.copy(), resultant=resultant.T.copy())
         return self._kept[system][1]
 
@@ -183,19 +164,37 @@ class ModulusChange:
             inside[block.cells[cells[block.first : block.first + len(block.cells)] == self.body]] = True
         return inside
 
-    def _by_forces(self, system: InterfaceSystem, seen: _Contacts) -> Array:
-        """(d a, p) Motions of the pairs: what yields to forces yields less."""
-        own = self._own(system)
-        return np.asarray(-(_response(system).B[:, own] @ seen.from_forces[own]) / self.modulus)
+    def _by_forces(self, system: InterfaceSystem, points: Sequence[TapePoint]) -> Array:
+        """(d a, p) Motions of the pairs at points of one system: what yields to forces yields less."""
+        heats = {load.label for load in self.prepared.model.loads if load.temperature is not None}
+        names, factors = factors_of(points)
+        response, own = _response(system), self._own(system)
+        load = response.B.T @ forces_of(points)
+        for name, factor in zip(names, factors, strict=True):
+            if name not in heats:
+                load += np.outer(system.unit(name).fixed, factor)
+        return np.asarray(-(response.B[:, own] @ response.parts.solve(load)[own]) / self.modulus)
 
-    def _by_pairs(self, system: InterfaceSystem, seen: _Contacts) -> Array:
-        """(d a, p) Motions of the pairs at the displacements of the bodies, seen otherwise."""
-        rows, pairs = system.condensed.active, self.pairs
-        moved = self._on_dofs(system) @ seen.whole
-        if seen.imposed.any():
-            moved += (pairs.B @ seen.imposed)[np.tile(rows, system.directions)]
+    def _by_pairs(self, system: InterfaceSystem, points: Sequence[TapePoint]) -> Array:
+        """(d a, p) Motions of the pairs at the displacements of the bodies, seen otherwise, and under other loads."""
+        rows, pairs, response, forces = system.condensed.active, self.pairs, _response(system), forces_of(points)
+        prescribed, (names, factors) = system.prepared.constraints.prescribed, factors_of(points)
+        load = response.B.T @ forces
+        for name, factor in zip(names, factors, strict=True):
+            load += np.outer(system.unit(name).load, factor)
+        x = response.parts.solve(load)
+        if system.motions:
+            h = np.stack([(point.h / system.root).ravel() for point in points], axis=-1)
+            offset = offsets_of(points).reshape(len(points), -1).T
+            left = h - system.condensed.compliance.ravel()[:, None] * forces - offset - response.B @ x
+            x = x + response.rigid @ system.condensed.travel(left)
+        moved = self._on_dofs(system) @ x
+        for name, factor in zip(names, factors, strict=True):
+            if name in prescribed:
+                moved += np.outer((pairs.B @ prescribed[name])[np.tile(rows, system.directions)], factor)
         moved[: system.pairs] += pairs.gap[rows][:, None]
-        return np.asarray(moved + pairs.compliance[:, rows].ravel()[:, None] * seen.forces)
+        moved += pairs.compliance[:, rows].ravel()[:, None] * forces
+        return np.asarray(moved + response.B @ response.parts.solve(self._on_contact(system, forces)))
 
     def _on_contact(self, system: InterfaceSystem, forces: Array) -> Array:
         """(m, p) Loads on the contact dofs that forces (d a, p) of the pairs are otherwise."""
@@ -218,32 +217,6 @@ class ModulusChange:
         """(m,) Contact dofs of the body."""
         nodes = self.prepared.constraints.nodes[system.condensed.dofs]
         return np.append(self._nodes, False)[np.minimum(nodes, len(self._nodes))]
-
-    def _contacts(self, system: InterfaceSystem, points: Sequence[TapePoint]) -> _Contacts:
-        """Contact displacements of points of one system."""
-        condensed, prepared, response = system.condensed, system.prepared, _response(system)
-        heats = {load.label for load in prepared.model.loads if load.temperature is not None}
-        names = sorted({name for point in points for name in point.load.factors})
-        factors = np.array([[point.load.factors.get(name, 0.0) for point in points] for name in names])
-        forces = np.stack([(system.root * point.r).ravel() for point in points], axis=-1)
-        h = np.stack([(point.h / system.root).ravel() for point in points], axis=-1)
-        gaps = np.stack([point.load.gap[system.active] for point in points], axis=-1)
-        offset = np.concatenate([gaps, np.zeros((len(forces) - len(gaps), len(points)))])
-        imposed = np.zeros((prepared.space.number_of_dofs, len(points)))
-        loads = np.zeros((2, len(condensed.dofs), len(points)))
-        pushed = response.B.T @ forces
-        for name, factor in zip(names, factors, strict=True):
-            unit = system.unit(name)
-            if name in prepared.constraints.prescribed:
-                imposed += np.outer(prepared.constraints.prescribed[name], factor)
-                offset += np.outer(unit.offset, factor)
-            loads[0] += np.outer(unit.load, factor)
-            if name not in heats:
-                loads[1] += np.outer(unit.fixed, factor)
-        x, from_forces = response.parts.solve(loads[0] + pushed), response.parts.solve(loads[1] + pushed)
-        left = h - condensed.compliance.ravel()[:, None] * forces - offset - response.B @ x
-        whole = x + response.rigid @ condensed.travel(left) if system.motions else x
-        return _Contacts(forces=forces, from_forces=from_forces, whole=whole, imposed=imposed)
 
 
 def with_material(model: Model, body: int, **changed: float) -> Model:

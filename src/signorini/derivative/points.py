@@ -7,7 +7,7 @@ the end of a straight part of the loads or of an increment, whose load is given.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, pairwise
@@ -147,6 +147,29 @@ class TapePoint:
         return found
 
 
+def factors_of(points: Sequence[TapePoint]) -> tuple[list[str], Array]:
+    """Names of loads and moving supports, and their factors (names, p)."""
+    names = sorted({name for point in points for name in point.load.factors})
+    found = [[point.load.factors.get(name, 0.0) for point in points] for name in names]
+    return names, np.array(found).reshape(len(names), len(points))
+
+
+def forces_of(points: Sequence[TapePoint]) -> Array:
+    """(d a, p) Forces of the active pairs of points of one system."""
+    return np.stack([(point.system.root * point.r).ravel() for point in points], axis=-1)
+
+
+def offsets_of(points: Sequence[TapePoint]) -> Array:
+    """(p, d, a) Motions of the active pairs of points of one system by gaps and by what supports impose."""
+    system = points[0].system
+    found = np.zeros((len(points), system.directions, system.pairs))
+    for name, factor in zip(*factors_of(points), strict=True):
+        if name in system.prepared.constraints.prescribed and factor.any():
+            found += factor[:, None, None] * system.unit(name).offset
+    found[:, 0] += np.stack([point.load.gap[system.active] for point in points])
+    return found
+
+
 def tape_points(tape: Tape) -> list[TapePoint]:
     """The points of a history, in order."""
     systems: dict[int, InterfaceSystem] = {}
@@ -154,7 +177,9 @@ def tape_points(tape: Tape) -> list[TapePoint]:
     friction: dict[str, str] = {}
     for number, leg in enumerate(tape.legs):
         friction = in_force(leg, friction)
-        system = systems.setdefault(id(leg.prepared), InterfaceSystem(leg.prepared, friction))
+        if id(leg.prepared) not in systems:
+            systems[id(leg.prepared)] = InterfaceSystem(leg.prepared, friction)
+        system = systems[id(leg.prepared)]
         if leg.segment is None:
             points += _in_increments(number, leg, system)
         else:
