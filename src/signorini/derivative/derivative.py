@@ -273,7 +273,7 @@ class Derivative:
 
     def _along(self, change: Change) -> float:
         """What a change changes of the output."""
-        points, adjoint = self._history.view.points, self._adjoint
+        points, adjoint = self._history.view.every, self._adjoint
         found = 0.0
         for system, friction in adjoint.bounds.items():
             bound = change.bound(system)

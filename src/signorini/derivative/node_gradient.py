@@ -62,7 +62,7 @@ def node_gradient(view: HistoryView, adjoint: Adjoint, output: Output) -> Array:
     free, found = _free(view), np.zeros_like(space.mesh.points)
     weighted = {load.label: np.zeros(space.number_of_dofs) for load in model.loads}
     sides = SideSums(view=view, adjoint=adjoint, output=output)
-    for own in of_same_bodies(view.points, adjoint):
+    for own in of_same_bodies(view.every, adjoint):
         sums = _sums(view, own, adjoint, sides.rows)
         if sums is not None:
             add_node_work(found, space, model, sums.of_cells(-1.0))
@@ -70,7 +70,7 @@ def node_gradient(view: HistoryView, adjoint: Adjoint, output: Output) -> Array:
                 weighted[name] += sums.weighted[name]
             sides.add(sums.system, sums.motion, sums.forces, *sums.on_contact(sides.rows), sums.one)
             continue
-        for columns in combinations_of(view.points, own, adjoint):
+        for columns in combinations_of(view.every, own, adjoint):
             w, u = columns.adjoint, columns.displacement
             add_node_work(found, space, model, Products.of(-w, u))
             if model.foundations:
@@ -96,11 +96,11 @@ def _sums(view: HistoryView, own: Sequence[int], adjoint: Adjoint, rows: sp.csr_
     view, own, adjoint : the history, numbers of the points, and the output's way back
     rows : (k, dofs) of displacements that pairs may see
     """
-    system = view.points[own[0]].system
+    system = view.every[own[0]].system
     equations = (system.prepared.constraints.free == -2).any()  # give dofs from others
     if equations or view.model.foundations or not ContactSums.knows(system):
         return None
-    sums = ContactSums(view.points, own, adjoint)
+    sums = ContactSums(view.every, own, adjoint)
     return sums if sums.meets(rows) else None
 
 

@@ -46,7 +46,7 @@ def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) ->
     on = _gone_on(point, legs[point.leg])
     if on is None:
         return None
-    event = replace(point, acting=np.array([pair]), follows=False)
+    event = replace(point, acting=np.array([pair]), quiet=None)
     return [*before, event, replace(point, states=on, h_rate=None, r_rate=None, load_rate=None)]
 
 

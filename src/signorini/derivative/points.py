@@ -25,6 +25,7 @@ from signorini.derivative.conditions import (
     plane_slips,
 )
 from signorini.derivative.interface_system import InterfaceSystem, PairStates
+from signorini.derivative.quiet_ends import QuietEnd, quiet_end
 from signorini.derivative.space_conditions import (
     acting_pairs,
     events_of,
@@ -36,6 +37,7 @@ from signorini.derivative.step_friction import in_force
 from signorini.engine.tape import Leg, Tape
 from signorini.errors import InputError
 from signorini.friction.history import PathState
+from signorini.friction.history.segment import Breakpoint
 from signorini.law.states import OPEN, SLIP_PLUS
 from signorini.solution.state import LoadPoint
 
@@ -60,7 +62,8 @@ class TapePoint:
     h, r : (d, n) motions and forces here
     h_rate, r_rate : (d, n) per unit of the part of the leg, on a path in the plane; None elsewhere
     load_rate : (d n + k,) in space, of what the equations see of the load on a path; None elsewhere
-    follows : whether the piece keeps its length, so that its end moves with its beginning: nothing happens there
+    quiet : in space, how it moves in the middle of a leg where nothing happens; None elsewhere
+    trials : ends of the increments that told the length of that
     passes : in space, whether an event in the piece would not end it
     acting : (m,) pairs whose event it is; empty where the load is given
     increment : (n,) or all: whether the friction of a pair in the piece is that of its end, as in an increment
@@ -79,7 +82,8 @@ class TapePoint:
     acting: IntArray
     increment: bool | BoolArray
     load_rate: Array | None = None
-    follows: bool = False
+    quiet: QuietEnd | None = None
+    trials: tuple[TapePoint, ...] = ()
     passes: bool = False
 
     @property
@@ -187,6 +191,12 @@ def tape_points(tape: Tape) -> list[TapePoint]:
     return points
 
 
+def with_trials(points: Sequence[TapePoint]) -> Sequence[TapePoint]:
+    """The points of a history, and behind them the ends of the trials that told lengths of its increments."""
+    tried = [trial for point in points for trial in point.trials]
+    return [*points, *tried] if tried else points
+
+
 def _on_path(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:
     """The points of a leg that was followed exactly; overlaps that press at its beginning are an increment."""
     assert leg.segment is not None
@@ -248,32 +258,52 @@ def _in_space(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePo
     assert leg.segment is not None
     assert leg.start is not None
     yield from _pressed(number, leg, system)
-    pieces, reach, whole = leg.segment.pieces, leg.segment.pieces[-1].factor, leg.segment.followed
-    point, load_rate = leg.before.point, system.free(leg.segment.end.b - leg.start.b)
-    for before, piece in pairwise(pieces):
-        assert piece.state is not None
-        part = piece.factor / reach
-        start = before.h, before.r
-        found = TapePoint(
-            leg=number,
-            system=system,
-            load=point.towards(leg.end, part),
-            load_factor=leg.low + part * (leg.high - leg.low),
-            part=part,
-            states=states_of_piece(system.law, piece.state.state, start, (piece.h, piece.r)),
-            h=piece.h,
-            r=piece.r,
-            h_rate=None,
-            r_rate=None,
-            acting=_NOBODY,
-            increment=_late(before.state, piece.state),
-            load_rate=load_rate,
-            passes=piece.passes,
-        )
+    pieces, whole = leg.segment.pieces, leg.segment.followed
+    load_rate = system.free(leg.segment.end.b - leg.start.b)
+    for k, (before, piece) in enumerate(pairwise(pieces), start=1):
+        found = _increment(number, leg, system, (before, piece), load_rate)
         if piece.factor < 1.0 or not whole:
-            acting = acting_pairs(found.conditions, start, found.piece_end)
-            found = replace(found, acting=acting, follows=not len(acting))
+            acting = acting_pairs(found.conditions, (before.h, before.r), found.piece_end)
+            if len(acting):
+                found = replace(found, acting=acting)
+            else:
+                trials = tuple(_increment(number, leg, system, (before, one), load_rate) for one in piece.search)
+                rates = [trial.rates[1] for trial in trials if trial.rates is not None]
+                found = replace(found, quiet=quiet_end(system.law, pieces, k, rates), trials=trials)
         yield found
+
+
+def _increment(
+    number: int, leg: Leg, system: InterfaceSystem, ends: tuple[Breakpoint, Breakpoint], load_rate: Array
+) -> TapePoint:
+    """The end of a piece in space, or of one that was tried, at a load that is given.
+
+    Parameters
+    ----------
+    number, leg, system : the leg and the interface in it
+    ends : of the piece
+    load_rate : see `TapePoint`
+    """
+    before, piece = ends
+    assert leg.segment is not None
+    assert piece.state is not None
+    part = piece.factor / leg.segment.pieces[-1].factor
+    return TapePoint(
+        leg=number,
+        system=system,
+        load=leg.before.point.towards(leg.end, part),
+        load_factor=leg.low + part * (leg.high - leg.low),
+        part=part,
+        states=states_of_piece(system.law, piece.state.state, (before.h, before.r), (piece.h, piece.r)),
+        h=piece.h,
+        r=piece.r,
+        h_rate=None,
+        r_rate=None,
+        acting=_NOBODY,
+        increment=_late(before.state, piece.state),
+        load_rate=load_rate,
+        passes=piece.passes,
+    )
 
 
 def _late(before: PathState | None, after: PathState) -> BoolArray:

@@ -22,7 +22,7 @@ from signorini.derivative.adjoint_terms import Adjoint, BoundTerm, PassedPoints,
 from signorini.derivative.block_steps import LONGEST_BLOCK, BlockSteps
 from signorini.derivative.conditions import PieceEvent
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.points import TapePoint
+from signorini.derivative.points import TapePoint, with_trials
 
 
 class Change(Protocol):
@@ -65,47 +65,62 @@ def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
     """
     found: list[PointChange] = []
     bounds: dict[InterfaceSystem, BoundTerm | None] = {}
-    memory: Array | None = None
-    at_once = _seen(points, change.moved(points))
+    every = with_trials(points)
+    at_once, memory = dict(zip(every, _seen(every, change.moved(every)), strict=False)), np.zeros((0, 0))
     for i, point in enumerate(points):
-        system, states = point.system, point.states
+        system = point.system
         if system not in bounds:
             bounds[system] = change.bound(system)
         system.ahead((points[j].system, points[j].states) for j in range(i, len(points)))
-        every = (system.directions, len(system.condensed.active))
-        memory = np.zeros((every[0] - 1, every[1])) if memory is None else memory
-        bound, (held, given) = bounds[system], np.zeros((2, system.directions, system.pairs))
-        remembered = states.held if states.codes is not None else True
-        held[1:] = np.where(remembered, system.root * memory[:, system.active], 0.0)
-        if bound is not None:
-            given[1:] = states.unit * _on_branches(bound, states.branch, np.maximum(point.r[0], 0.0))
-        load = system.imposed(held, given)
-        if at_once:
-            load += at_once[i]
-        h, r = system.respond(states, load)
-        h, r = h + held, r + given
-        part = found[-1].part if point.follows and i and points[i - 1].leg == point.leg else 0.0
+        whole = np.zeros((2, system.directions, len(system.condensed.active)))
+        memory = memory if i else np.zeros_like(whole[0, 1:])
+        bound, part = bounds[system], 0.0
+        h, r = _at_load(point, at_once.get(point), memory, bound)
         if point.at_event:
             event = point.event
             part = -(event.change(h, r) + (0.0 if bound is None else _of_bound(event, bound))) / event.rate
+        elif point.quiet is not None and i:
+            one, two = (found[k].part if k >= 0 and points[k].leg == point.leg else 0.0 for k in (i - 1, i - 2))
+            tried = [_at_load(trial, at_once.get(trial), memory, bound)[1] for trial in point.trials]
+            part = point.quiet.part(one, two, found[-1].r[1:, system.active] / system.root, tried)
         if part:
             h_rate, r_rate = _rates(point)
             h, r = h + part * h_rate, r + part * r_rate
-        whole = np.zeros((2, *every))
         whole[0][:, system.active], whole[1][:, system.active] = h / system.root, r * system.root
         memory = whole[0, 1:]
         found.append(PointChange(h=whole[0], r=whole[1], part=part, bound=bound))
     return found
 
 
-def _seen(points: Sequence[TapePoint], moved: Sequence[tuple[Array, Array]]) -> dict[int, Array]:
-    """(d n + k,) By number of the point, what its equations see of motions of the pairs and resultants of loads."""
+def _at_load(point: TapePoint, load: Array | None, memory: Array, bound: BoundTerm | None) -> tuple[Array, Array]:
+    """What is changed of motions and forces, (d, n), scaled, at the load of a point.
+
+    Parameters
+    ----------
+    point : the point
+    load : (d n + k,) what its equations see of what moves at once; None for nothing
+    memory : (d - 1, all pairs) what is changed of what is remembered, length
+    bound : what is changed of the friction; None for nothing
+    """
+    system, states = point.system, point.states
+    held, given = np.zeros((2, system.directions, system.pairs))
+    remembered = states.held if states.codes is not None else True
+    held[1:] = np.where(remembered, system.root * memory[:, system.active], 0.0)
+    if bound is not None:
+        given[1:] = states.unit * _on_branches(bound, states.branch, np.maximum(point.r[0], 0.0))
+    imposed = system.imposed(held, given)
+    h, r = system.respond(states, imposed if load is None else imposed + load)
+    return h + held, r + given
+
+
+def _seen(points: Sequence[TapePoint], moved: Sequence[tuple[Array, Array]]) -> list[Array]:
+    """(d n + k,) Of every point, what its equations see of motions of the pairs and resultants; empty for none."""
     found: dict[int, Array] = {}
     for system in dict.fromkeys(point.system for point in points) if moved else ():
         own = [i for i, point in enumerate(points) if point.system is system]
         free = system.condensed.free(*(np.stack([moved[i][k] for i in own]) for k in range(2)))
         found.update(zip(own, free, strict=True))
-    return found
+    return [found[i] for i in range(len(found))]
 
 
 def backward(
@@ -142,7 +157,11 @@ class _Back:
         self._steps: dict[InterfaceSystem, BlockSteps] = {}
         self._memory: Array | None = None  # (d - 1, n) of the active pairs of the system, scaled
         self._system: InterfaceSystem | None = None
-        self._moves = 0.0  # how the output changes with the part of the leg that is behind where the next piece begins
+        # by number of the point, how the output changes with the part of the leg that is behind there; and how, (2, all
+        # pairs) per force, with the friction with which an increment begins that tells its length
+        self._moves: dict[int, float] = {}
+        self._turned: Array | None = None
+        self._place = {point: k for k, point in enumerate(with_trials(points))}
         self.passed: dict[InterfaceSystem, PassedPoints] = {}
 
     def to(self, i: int) -> int:
@@ -153,9 +172,7 @@ class _Back:
             self._memory, self._system = _handed(self._memory, self._system, system), system
             self.passed.setdefault(system, PassedPoints(system))
         assert self._memory is not None
-        if not (i + 1 < len(self._points) and self._points[i + 1].leg == point.leg):
-            self._moves = 0.0
-        asked = i in self._weights or i in self._direct or self._moves != 0.0
+        asked = i in self._weights or i in self._direct or i in self._moves or self._turned is not None
         if not asked and not self._memory[~states.held].any():
             return 1
         return (states.codes is not None and self._block(i)) or self._one(i)
@@ -187,26 +204,54 @@ class _Back:
         assert memory is not None
         asked = self._asked(i)
         h, r = (asked.h, asked.r) if asked is not None else np.zeros((2, system.directions, system.pairs))
+        if self._turned is not None:
+            r[1:] += self._turned[:, system.active] * system.root
+            self._turned = None
         h[1:] += memory
         memory = np.where(states.held, h[1:], 0.0)
         h[1:] -= memory
-        if h.any() or r.any() or self._moves or i in self._direct:
+        if h.any() or r.any() or i in self._moves or i in self._direct:
             system.ahead((points[j].system, points[j].states) for j in range(i, -1, -1))
-            if point.at_event or point.follows:
+            if point.at_event or point.quiet is not None:
                 h_rate, r_rate = _rates(point)
-                self._moves += float(np.vdot(h, h_rate) + np.vdot(r, r_rate))
-            if point.at_event:
-                event = point.event
-                share = -self._moves / event.rate
-                h[0, event.pair] += share * event.gap
-                r[0, event.pair] += share * event.pressure
-                r[1:, event.pair] += share * event.friction
-                self.passed[system].take_event(event, share)
+                moves = self._moves.pop(i, 0.0) + float(np.vdot(h, h_rate) + np.vdot(r, r_rate))
+                if point.at_event:
+                    event = point.event
+                    share = -moves / event.rate
+                    h[0, event.pair] += share * event.gap
+                    r[0, event.pair] += share * event.pressure
+                    r[1:, event.pair] += share * event.friction
+                    self.passed[system].take_event(event, share)
+                elif i:
+                    memory += self._through_quiet_end(i, moves)
             free = system.respond_transposed(states, h, r)
             self.passed[system].take([i], [point], free[None], r[None, 1:])
             memory += (h - free[: h.size].reshape(h.shape))[1:]
-        self._memory, self._moves = memory, self._moves if point.follows else 0.0
+        self._memory = memory
         return 1
+
+    def _through_quiet_end(self, i: int, moves: float) -> Array:
+        """(2, n) How the output changes with what is remembered by what ends an increment where nothing happens.
+
+        ``moves`` is how it does with the part of the leg at that end.
+        """
+        points, point = self._points, self._points[i]
+        system, end = point.system, point.quiet
+        assert end is not None
+
+        def ask(number: int, r: Array) -> Array:
+            trial = point.trials[number]
+            free = system.respond_transposed(trial.states, np.zeros_like(r), r)
+            self.passed[system].take([self._place[trial]], [trial], free[None], r[None, 1:])
+            return free
+
+        memory, friction, *ends = end.back(moves, system.pairs, ask)
+        self._turned = np.zeros((2, len(system.condensed.active)))
+        self._turned[:, system.active] = friction / system.root
+        for k, part in zip((i - 1, i - 2), ends, strict=True):
+            if part and k >= 0 and points[k].leg == point.leg:
+                self._moves[k] = self._moves.get(k, 0.0) + part
+        return memory
 
     def _asked(self, i: int) -> Weights | None:
         """How the output changes with motions and forces, (d, n) scaled, of the active pairs of a point."""

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from signorini.arrays import Array, BoolArray
-from signorini.derivative.points import TapePoint
+from signorini.derivative.points import TapePoint, with_trials
 from signorini.engine.increments import applied, free_load
 from signorini.engine.path_states import offsets
 from signorini.errors import InputError, one_of
@@ -61,6 +61,11 @@ class HistoryView:
         prepared = points[-1].system.prepared
         return cls(points=points, model=prepared.model, space=prepared.space, interface=prepared.interface)
 
+    @cached_property
+    def every(self) -> Sequence[TapePoint]:
+        """The points, and behind them the ends of the trials that told lengths of increments."""
+        return with_trials(self.points)
+
     def number(self, load_factor: float | None) -> int:
         """Of the point at a load factor, the last one where None is given.
 
@@ -73,7 +78,7 @@ class HistoryView:
             return len(self.points) - 1
         ends: dict[float, int] = {}
         for i, point in enumerate(self.points):
-            if not point.at_event:  # a step ends before what the next one changes at once
+            if not point.at_event and point.quiet is None:  # a step ends before what the next one changes at once
                 ends.setdefault(point.load_factor, i)
         nearest = min(ends, key=lambda end: abs(end - load_factor))
         if abs(nearest - load_factor) > _SAME_LOAD:

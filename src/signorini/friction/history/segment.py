@@ -51,6 +51,8 @@ class Breakpoint:
     rates : in the plane, of the piece that ends here
     acting : (m,) in the plane, pairs whose event ends it; empty at the end of the segment unless one is there
     passes : in space, whether it is short enough to go on over an event
+    search : in space, ends of increments tried before: how far friction turns in one told the length of the next, and
+        in the last that of this one; empty where anything else did
     """
 
     factor: float
@@ -61,6 +63,7 @@ class Breakpoint:
     rates: Rates | None = None
     acting: IntArray | None = None
     passes: bool = False
+    search: tuple[Breakpoint, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,13 +22,15 @@ from signorini.friction.history.rates import NoRates, Rates
 from signorini.friction.history.segment import Breakpoint, Jump, Segment
 from signorini.friction.history.space.bearing import OVERLOADED, Bearing, sliding
 from signorini.friction.history.space.find_rates import acting_pairs, departures, find_rates
+from signorini.friction.history.space.lengths import PROBE, SHORT, early, pressed_for, shortened, turned_length
 from signorini.friction.history.space.missed_jumps import first_missed_jump
 from signorini.friction.history.space.standstill import standstill
 from signorini.friction.history.space.straight import (
     END_ROUNDING,
     SolvedIncrement,
     extrapolated_length,
-    friction_turn,
+    friction_turns,
+    grips,
     held_until,
     settled,
 )
@@ -36,9 +38,7 @@ from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
 from signorini.friction.pull_away import Pull, pulled_away
 from signorini.friction.solve import solve_contact
-from signorini.law.bound import ADHESION_SLOPE
 from signorini.law.result import ContactAnswer
-from signorini.law.states import OPEN
 from signorini.outcome import Outcome
 
 LEAST_STEP = 1e-12
@@ -48,11 +48,7 @@ TRIES = 60
 """Most increments tried to find where one ends."""
 
 _FIRST = 2.0**-6  # part of the segment that is tried first
-_PROBE = 2.0**-4  # part of the last increment that shows the rates behind an event
 _LEAST_PROBE = 2.0**-10  # part of the segment that shows the rates behind an event
-_EARLY_GROWTH = 0.5  # of what is behind: what increments at the beginning may be,
-_EARLY_SHARE = 2.0**-4  # and of the shortest
-_SHRINK = 0.9  # of the estimated part up to an event: short of it
 _EVENT_TOL = 1e-12  # part of an increment by which it may miss an event,
 _LATE_EVENT_TOL = 1e-3  # and after some tries
 _LOOSER = 2.0  # times at every further try: by how much longer an increment must become to be worth it
@@ -75,7 +71,7 @@ class SpaceFollower(PathFollower):
         self._quick = replace(
             settings.solver, searched_steps=_QUICK_STEPS, swept_rounds=1, proximal_rounds=0, springs=()
         )
-        self.last, self.tried = _FIRST / _PROBE, 0
+        self.last, self.tried = _FIRST / PROBE, 0
         # up to where every event ends an increment; whether that failed; up to where no energy is missing
         self.careful, self.trusting, self.balanced = 0.0, False, 0.0
         self.smooth = bool((problem.law.rubs & (problem.section.sides == 0)).any())
@@ -169,7 +165,7 @@ class SpaceFollower(PathFollower):
     def _along(self, rates: Rates) -> bool:
         """One increment in the direction of rates, up to the next event; whether there is one."""
         now, tried = self.now, self.tried
-        short = 0.5 * self._pressed_for(rates)
+        short = 0.5 * pressed_for(self.problem, now.r, rates.r, self.reach - self.factor)
         piece = replace(now, h=now.h + short * rates.h, r=now.r + short * rates.r, state=rates.state)
         step = min(short * extrapolated_length(self.problem, now, piece, self.width), self.reach - self.factor)
         for _ in range(TRIES):
@@ -185,7 +181,7 @@ class SpaceFollower(PathFollower):
             if off > self._astray * step * (np.abs(rates.h).max() + np.abs(rates.r).max()) + self.width:
                 step /= 2.0
             elif trial.turn > self._turn:
-                step *= _SHRINK * self._turn / trial.turn
+                step *= SHORT * self._turn / trial.turn
             else:
                 self._enter(trial, settled(self.problem, self.now, trial, rates.state), self.tried - tried)
                 return True
@@ -222,24 +218,15 @@ class SpaceFollower(PathFollower):
                 return True
         return False
 
-    def _pressed_for(self, rates: Rates) -> float:
-        """How long no normal force vanishes or comes to a kink of the bound on friction, within the segment."""
-        p, rate = self.now.r[0], rates.r[0]
-        times = [self.reach - self.factor]
-        for kink in self.problem.pieces.kinks[:-1]:
-            away = np.where(np.isfinite(kink), kink, np.inf) - p
-            comes = (away * rate > 0.0) & (np.abs(away) > self.width)
-            times.append(float((away[comes] / rate[comes]).min(initial=np.inf)))
-        return min(times)
-
     def _advance(self, *, patience: int) -> str:
         """One increment; why there is none, or nothing. Given up where so many were tried, and pairs act in all."""
         self.refused = None
         shortest = self._shortest
         left = self.reach - self.factor
-        step = min(max(_PROBE * self.last, _LEAST_PROBE, shortest), left)
+        step = min(max(PROBE * self.last, _LEAST_PROBE, shortest), left)
         tried, best = self.tried, None
         inner: SolvedIncrement | None = None
+        search: tuple[SolvedIncrement, ...] = ()  # that told lengths one after the other, see `Breakpoint`
         words, longest, barrier = "", left, self._barrier - self.factor
         if _LOST < barrier <= step:  # where the last one was refused is not tried again before it is near
             step, longest = 0.5 * barrier, barrier
@@ -247,11 +234,9 @@ class SpaceFollower(PathFollower):
         for number in range(TRIES):
             late = _LATE_EVENT_TOL if self.smooth and number >= _PATIENCE else _EVENT_TOL
             longer = late * (_LOOSER ** (number - _PATIENCE) if late == _LATE_EVENT_TOL else 1.0)
-            ahead = None
-            if self._rate is not None and self.now.r.any():
-                ahead = self._counted(self.now.r) + step * self._rate
-            trial = self._trial(step, shortest, ahead)
+            trial = self._trial(step, shortest, self._guess(step))
             if isinstance(trial, ContactAnswer):
+                search = ()
                 words, longest, barrier = trial.message, step, step
                 self._barrier = self.factor + step
                 if not self._leaves:
@@ -260,7 +245,7 @@ class SpaceFollower(PathFollower):
                     break
                 step = step / 16.0 if best is None else 0.5 * (best.step + step)
             elif trial.until >= 1.0 - late and trial.turn <= self._turn:
-                best, inner = trial, inner or trial
+                best, inner = replace(trial, search=search), inner or trial
                 step = trial.step * self._room(trial, inner.after.state)
                 if step >= longest and longest < left:
                     if longest == barrier and longest <= trial.step * (1.0 + _REFUSED):
@@ -269,7 +254,9 @@ class SpaceFollower(PathFollower):
                 if min(step, left) <= trial.step * (1.0 + longer):
                     break
                 step = min(step, left)
-            elif trial.step <= shortest and not self._grips(trial):
+            elif trial.step <= shortest and (
+                self.trusting or not grips(self.problem, self.now, trial, _LATE_EVENT_TOL)
+            ):
                 best = inner = trial
                 break
             else:
@@ -278,11 +265,13 @@ class SpaceFollower(PathFollower):
                 words, longest = f"pairs {np.flatnonzero(trial.each <= trial.until).tolist()} act", step
                 if best is None and number >= patience:
                     break
-                step = self._nearer(trial, shortest, best)
+                step = shortened(trial, self._turn, shortest, best)
                 if best is not None and step <= best.step * (1.0 + longer):
                     break
             if step < LEAST_STEP:
                 break
+            if isinstance(trial, SolvedIncrement):
+                search = (*search, trial) if step == turned_length(trial, self._turn) else ()
         if best is None or inner is None:
             tries = f"{self.tried - tried} tried, at most {TRIES}"
             return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually ({tries}: {words})"
@@ -291,25 +280,16 @@ class SpaceFollower(PathFollower):
         self._enter(best, after, self.tried - tried)
         return ""
 
-    def _nearer(self, trial: SolvedIncrement, shortest: float, best: SolvedIncrement | None) -> float:
-        """The part to try after one in which something has happened, or friction has turned too far."""
-        limit = self._turn
-        aim = _SHRINK * limit / trial.turn if trial.turn > limit else 1.0
-        if trial.until < 1.0:
-            aim = min(aim, trial.until * (_SHRINK if best is None else 1.0))
-        return max(aim * trial.step, shortest if best is None else best.step)
-
-    def _grips(self, trial: SolvedIncrement) -> bool:
-        """Whether a pair that holds friction without pressure closes in it, which sticks where it touches, or opens."""
-        turns = (self.now.state == OPEN) != (trial.after.state == OPEN)
-        grips = turns & (self.problem.mu >= ADHESION_SLOPE) & (trial.each < 1.0 - _LATE_EVENT_TOL)
-        return bool(grips.any()) and not self.trusting
+    def _guess(self, step: float) -> Array | None:
+        """(3, n) r - h at the end of an increment that goes on as the last one did; None before the first."""
+        known = self._rate is not None and self.now.r.any()
+        return self._counted(self.now.r) + step * self._rate if known and self._rate is not None else None
 
     def _room(self, trial: SolvedIncrement, state: IntArray) -> float:
         """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
         times = max(1.0, extrapolated_length(self.problem, self.now, replace(trial.after, state=state), self.width))
         if trial.turn > 0.0:
-            times = min(times, max(1.0, _SHRINK * self._turn / trial.turn))
+            times = min(times, max(1.0, SHORT * self._turn / trial.turn))
         return max(times, self._shortest / trial.step)
 
     @property
@@ -321,7 +301,7 @@ class SpaceFollower(PathFollower):
     def _shortest(self) -> float:
         """What an increment need not undercut here: little at the beginning, where contact grows and friction turns."""
         whole = 0.0 if self.factor < self.careful else self.settings.shortest
-        return min(whole, max(_EARLY_GROWTH * self.factor, _EARLY_SHARE * whole), self.reach - self.factor)
+        return min(early(whole, self.factor), self.reach - self.factor)
 
     def _counted(self, y: Array) -> Array:
         """(3, n) r - h of an increment from here, of an r - h whose gaps change by h."""
@@ -355,17 +335,19 @@ class SpaceFollower(PathFollower):
             result=result,
             until=least,
             each=until,
-            turn=friction_turn(increment, now, r, h[1:], self.width),
+            turn=float(np.abs(friction_turns(increment, now, r, h[1:], self.width)).max(initial=0.0)),
         )
 
     def _enter(self, trial: SolvedIncrement, after: PathState, tried: int) -> None:
         """Go on from the end of an increment; what is in another state than before changed at its beginning."""
         self.happens(self.now.state, replace(self.now, state=after.state))
         passes = trial.step <= self._shortest
+        tries = ((self.factor + one.step, one.after) for one in trial.search)
+        search = tuple(Breakpoint(factor=factor, h=state.h, r=state.r, state=state) for factor, state in tries)
         self.factor = 1.0 if self.factor + trial.step >= 1.0 - LEAST_STEP else self.factor + trial.step
         self.now, self.last = after, trial.step
         end = Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried, passes=passes)
-        self.pieces.append(end)
+        self.pieces.append(replace(end, search=search))
         self.residual = max(self.residual, trial.result.residual)
 
     def ended(self, lost: NoRates) -> Segment:

@@ -22,6 +22,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.history.rates import RATE_TOL
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
+from signorini.law.bound import ADHESION_SLOPE
 from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, STICK
 
@@ -41,6 +42,7 @@ class SolvedIncrement:
     until : part of it up to which the law holds on a straight way
     each : (n,) that part of every pair
     turn : largest angle by which friction turns
+    search : increments tried before that told its length, see `Breakpoint`
     """
 
     step: float
@@ -49,6 +51,7 @@ class SolvedIncrement:
     until: float
     each: Array
     turn: float
+    search: tuple[SolvedIncrement, ...] = ()
 
 
 def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, width: float) -> Array:
@@ -70,7 +73,7 @@ def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, wi
     slips = (pressing > 0) & (size > width) & ~closes
     most = problem.bound.at(p) * problem.section.farthest(slip)
     lacking = ((most + start.r[1:]) * slip).sum(axis=0) / np.where(slips, size, 1.0)
-    # on a smooth section the force turns with the slip; how far is another question, see `friction_turn`
+    # on a smooth section the force turns with the slip; how far is another question, see `friction_turns`
     inside = (problem.section.sides > 0) | (problem.law.reserve(start.r) > width)
     starts = slips & inside & (lacking > width)
     until[starts] = lacking[starts] / (lacking + size)[starts]
@@ -81,8 +84,8 @@ def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, wi
     return until
 
 
-def friction_turn(problem: ContactProblem, start: PathState, r: Array, slip: Array, width: float) -> float:
-    """Largest angle by which friction turns on smooth sections, of pairs that slip on their limit all the way.
+def friction_turns(problem: ContactProblem, start: PathState, r: Array, slip: Array, width: float) -> Array:
+    """(n,) Angles by which friction turns on smooth sections, of pairs that slip on their limit all the way; 0 else.
 
     Parameters
     ----------
@@ -94,10 +97,8 @@ def friction_turn(problem: ContactProblem, start: PathState, r: Array, slip: Arr
     slips = np.linalg.norm(slip, axis=0) > width
     spent = problem.law.reserve(start.r) <= width
     which = slips & (problem.section.sides == 0) & (long > 1e3 * width) & spent
-    if not which.any():
-        return 0.0
-    cross = one[0, which] * two[1, which] - one[1, which] * two[0, which]
-    return float(np.abs(np.arctan2(cross, (one[:, which] * two[:, which]).sum(axis=0))).max())
+    cross, along = one[0] * two[1] - one[1] * two[0], (one * two).sum(axis=0)
+    return np.where(which, np.arctan2(cross, along), 0.0)
 
 
 def extrapolated_length(problem: ContactProblem, start: PathState, end: PathState, width: float) -> float:
@@ -169,6 +170,19 @@ def settled(problem: ContactProblem, now: PathState, trial: SolvedIncrement, sta
     late = (trial.each < 1.0 - END_ROUNDING) & (now.state != OPEN)
     lost = -(np.where(late, r[1:], 0.5 * (r[1:] + now.r[1:])) * moved).sum(axis=0)
     return replace(end, h=h, r=r, state=state, anchor=h[1:], slip=now.slip + moved, dissipation=now.dissipation + lost)
+
+
+def grips(problem: ContactProblem, now: PathState, trial: SolvedIncrement, late: float) -> bool:
+    """Whether a pair that holds friction without pressure closes in an increment, where it sticks, or opens.
+
+    Parameters
+    ----------
+    problem : the problem; its b does not matter
+    now, trial : the beginning of the increment, and the increment
+    late : part of it at its end, in which that does not count
+    """
+    turns = (now.state == OPEN) != (trial.after.state == OPEN)
+    return bool((turns & (problem.mu >= ADHESION_SLOPE) & (trial.each < 1.0 - late)).any())
 
 
 def _over(force: Array, axes: Array) -> Array:
