@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.accuracy.meshes import RefinedMeshes
+from signorini.accuracy.meshes import Growth, RefinedMeshes
 from signorini.cli.main import main
 from signorini.errors import InputError
 
@@ -54,14 +54,31 @@ def test_new_nodes_are_on_the_curve(ellipse):
     meshes.first()
     assert meshes.notes == ("'arc' follows the geometry 'part.geo'",)
     for _ in range(2):
-        posed = meshes.next(np.ones(len(meshes.simplices.cells)), 3.0)
+        posed = meshes.next(np.ones(len(meshes.simplices.cells)), Growth(least=3.0, most=3.0))
     nodes = posed.mesh.nodes_of("arc")
     assert len(nodes) > 2 * len(mesh.nodes_of("arc"))
     assert off(posed.mesh.points[nodes]).max() < 1e-9
     straight = RefinedMeshes(held(mesh), sg.Accuracy(0.1, of="energy"))
     straight.first()
-    bent = straight.next(np.ones(len(straight.simplices.cells)), 3.0).mesh
+    bent = straight.next(np.ones(len(straight.simplices.cells)), Growth(least=3.0, most=3.0)).mesh
     assert off(bent.points[bent.nodes_of("arc")]).max() > 1e-3
+
+
+def test_what_has_no_name_follows_too(ellipse):
+    """The arc without its name; and not where the mesh is no more that of the geometry."""
+    mesh = sg.read_mesh(ellipse)
+    nodes = mesh.nodes_of("arc")
+    bare = replace(mesh, boundaries={name: own for name, own in mesh.boundaries.items() if name != "arc"})
+    meshes = RefinedMeshes(held(bare), sg.Accuracy(0.1, of="energy", geometry=ellipse))
+    meshes.first()
+    assert meshes.notes == ("'the rest of the skin' follows the geometry 'part.geo'",)
+    fine = meshes.next(np.ones(len(meshes.simplices.cells)), Growth(least=3.0, most=3.0)).mesh
+    assert sorted(fine.boundaries) == ["axis", "base"]
+    inside = (fine.points > 1e-9).all(axis=1)
+    assert np.count_nonzero(inside & (off(fine.points) < 1e-9)) > 2 * (len(nodes) - 2)
+    del meshes  # Gmsh has one geometry at a time
+    moved = replace(bare, points=np.where(mesh.points[:, :1] * mesh.points[:, 1:] > 0.0, 0.99, 1.0) * mesh.points)
+    assert RefinedMeshes(held(moved), sg.Accuracy(0.1, of="energy", geometry=ellipse)).notes == ()
 
 
 def test_new_nodes_are_on_the_faces_of_a_solid(tmp_path):
@@ -70,7 +87,7 @@ def test_new_nodes_are_on_the_faces_of_a_solid(tmp_path):
     mesh = sg.read_mesh(tmp_path / "part.geo")
     meshes = RefinedMeshes(held(mesh), sg.Accuracy(0.1, of="energy", geometry=tmp_path / "part.geo"))
     meshes.first()
-    points = meshes.next(np.ones(len(meshes.simplices.cells)), 2.0).mesh
+    points = meshes.next(np.ones(len(meshes.simplices.cells)), Growth(least=2.0, most=2.0)).mesh
     skin = points.points[points.nodes_of("skin")]
     flat = np.abs(skin).min(axis=1) < 1e-9
     assert off(skin[~flat]).max() < 1e-6

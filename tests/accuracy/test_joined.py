@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.accuracy.meshes import RefinedMeshes
+from signorini.accuracy.meshes import Growth, RefinedMeshes
 from signorini.meshing.halves import halves_match
 
 E = 100.0
@@ -28,7 +28,7 @@ def test_a_bolt_on_halves_that_are_refined_alone():
     meshes = RefinedMeshes(model, sg.Accuracy(0.1, of="energy"))
     meshes.first()
     middle = meshes.simplices.points[meshes.simplices.cells].mean(axis=1)
-    posed = meshes.next(np.where(middle[:, 0] < 2.0, 1.0, 1e-9), 2.0)
+    posed = meshes.next(np.where(middle[:, 0] < 2.0, 1.0, 1e-9), Growth(least=2.0, most=2.0))
     assert not halves_match(posed.mesh, "section")
     solution = sg.solve(posed, accuracy="estimate")
     assert solution.last.bolts["section"].shortening == pytest.approx(6.0 * 4.0 / (E * 2.0), rel=1e-9)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.accuracy.meshes import RefinedMeshes
+from signorini.accuracy.meshes import Growth, RefinedMeshes
 from signorini.meshing.tetrahedra import tetrahedra
 
 STEEL = sg.Elastic(E=200.0, nu=0.3, expansion=1e-3)
@@ -66,7 +66,7 @@ def test_values_between_nodes_are_those_of_the_cells(family):
         facets = np.unique(np.concatenate([part.ravel() for part in posed.mesh.facets("top")]))
         assert np.isin(facets, own).all()
         first = np.linalg.norm(posed.mesh.points[meshes.simplices.cells].mean(axis=1), axis=1)
-        posed = meshes.next(1.0 / first**4, 3.0)
+        posed = meshes.next(1.0 / first**4, Growth(least=3.0, most=3.0))
 
 
 def test_an_accuracy_of_a_model_with_values_at_nodes():

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from benchmarks.accuracy import point_error
 from signorini.accuracy.estimate import estimate
 from signorini.cli.main import main
 from signorini.gallery import coarse
@@ -134,10 +135,8 @@ def test_pressures_in_space_are_as_exact_as_asked(load):
     (rigid,) = model.obstacles
     heavy = replace(rigid, force=(None, None, load * rigid.force[2]))
     solution = sg.solve(replace(model, obstacles=[heavy]), accuracy=0.1)
-    found, contact, radius = solution.accuracy, solution.contact("seat"), load ** (1 / 3)
-    room = np.maximum(radius**2 - (contact.points[:, :2] ** 2).sum(axis=1), 0.0)
-    exact = 2.0 / np.pi * coarse.PLANE_MODULUS / 100.0 * np.sqrt(room)
-    true = np.sqrt((contact.area @ (contact.pressure - exact) ** 2) / (contact.area @ exact**2))
+    found, radius = solution.accuracy, load ** (1 / 3)
+    true = point_error(solution, radius)
     assert found.met
     assert true <= 0.1
     assert 0.7 <= found.pressure / true <= 2.0
@@ -215,11 +214,8 @@ def test_what_is_no_accuracy_is_refused(given, words):
 def test_models_that_are_not_refined_are_named():
     model = hertz()
     worn = replace(model, contacts=[replace(model.contacts[0], friction=0.3, wear=sg.Wear(1e-8))])
-    corner = sg.Load((0.0, 0.0), nodal_forces=[(0.0, 1.0)])
-    by_nodes = replace(model, loads=[corner])
-    for wrong, words in ((worn, "contacts that wear"), (by_nodes, "forces given node by node")):
-        with pytest.raises(sg.InputError, match=f"accuracy: does not know {words}"):
-            sg.solve(wrong, accuracy=0.1)
+    with pytest.raises(sg.InputError, match="accuracy: does not know contacts that wear"):
+        sg.solve(worn, accuracy=0.1)
     with pytest.raises(sg.InputError, match="tape: belongs to one mesh"):
         sg.solve(model, accuracy=0.1, tape=True)
     with pytest.raises(sg.InputError, match="there is no contact; expected of = 'energy'"):

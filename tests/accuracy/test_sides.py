@@ -70,6 +70,34 @@ def test_a_root_of_the_distance_from_the_end_is_told_from_its_chords(contact, en
     assert lacks(contact, with_pressures(contact, values))[0] == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.parametrize("end", [2.95, 3.2, 3.4])
+def test_what_nodes_lack_at_the_end_is_told_with_the_root(contact, end):
+    """Pressures that are wrong at the last two nodes, and stresses that know the root: all that is lacking there."""
+    true = lambda x: np.sqrt(np.maximum(end - x, 0.0))  # noqa: E731
+    wrong = np.where(end > LINES, true(LINES) + np.array([0.0, 0.0, -0.1, 0.15, 0.0, 0.0]), 0.0)
+    result = with_pressures(contact, wrong)
+    expected = sum(
+        quad(
+            lambda x: (true(x) - np.interp(x, LINES, wrong)) ** 2,
+            *LINES[i : i + 2],
+            points=[end] if LINES[i] < end < LINES[i + 1] else None,
+            epsabs=1e-13,
+        )[0]
+        for i in ((2, 3) if end > 2.9 else (1, 2))
+    )
+    found, _ = lacks(contact, result, true(LINES) - wrong)
+    before = (LINES[2] - LINES[1]) * 0.1**2 / 3.0  # between the nodes at 1 and 1.7, of which the second is wrong
+    assert found == pytest.approx(expected + before, rel=1e-6)
+
+
+def test_open_pairs_lack_nothing(contact):
+    """Whatever stresses are recovered there, but on the facet at which the contact ends."""
+    result = with_pressures(contact, np.array([1.0, 1.0, 0.0, 0.0, 0.0, 0.0]))
+    far, near = (np.where(np.arange(6) == i, 5.0, 0.0) for i in (4, 2))
+    assert lacks(contact, result, far)[0] == lacks(contact, result)[0]
+    assert lacks(contact, result, near)[0] == lacks(contact, result)[0]
+
+
 def test_a_difference_that_varies_linearly(contact):
     """Of pairs that all touch: no end; ``int (0.1 + 0.2 x)^2 dx``, and nothing of a constant on linear cells."""
     result = with_pressures(contact, np.ones(len(LINES)))

@@ -8,18 +8,18 @@ import time
 from collections.abc import Sequence
 
 from signorini.accuracy.estimate import IN_SPACE, Estimate
-from signorini.accuracy.meshes import is_linear
+from signorini.accuracy.meshes import Growth, is_linear
 from signorini.memory import available_memory, peak_memory
 from signorini.model.accuracy import Accuracy
 from signorini.model.model import Model
 from signorini.solution.accuracy import MeshLevel
 
-SAFE_SHARE = 0.7
-"""Of what was asked for: what the next mesh is made for."""
+SAFE_SHARE, SHARE_IN_SPACE = 0.7, 0.85
+"""Of what was asked for: what the next mesh is made for, and for norms in space, where one more takes the longest."""
 
-LEAST_GROWTH, MOST_GROWTH, MOST_IN_PLANE = 1.6, 3.0, 6.0
-"""How many times the cells of a mesh the next one has, at most, and for norms in the plane: with fewer solves add up,
-with more cells are where no errors are."""
+LEAST_GROWTH, MOST_GROWTH, MOST_IN_PLANE, MOST_TO_THE_LAST = 1.6, 3.0, 6.0, 4.5
+"""How many times the cells of a mesh the next one has, at most, for norms in the plane, and in space where the next is
+expected to be the last: with fewer solves add up, with more cells are where no errors are."""
 
 _FASTER = 1.5
 """Times the power that is expected of errors in norms: with which they have fallen in the plane, at most, and do with
@@ -40,6 +40,9 @@ PLANE = 2
 
 _MESHES = {"energy": 1, "pressure": 2, "traction": 2}
 """On which each has to be known, at least; outputs on three: their errors change sign."""
+
+_LINEAR_PRESSURES = 1.5
+"""Times the power of nodes with which stresses of linear cells lack less: that of pressures, which balance loads."""
 
 _FALL_NEAR_CONTACT = 1.25
 """Times the power of nodes with which errors in space fall otherwise: what those of pressures do, since cells
@@ -74,7 +77,7 @@ class Bounds:
         of = self._request.of
         return _MESHES[of] if isinstance(of, str) else 3
 
-    def growth(self, found: Estimate, model: Model, levels: Sequence[MeshLevel]) -> float:
+    def growth(self, found: Estimate, model: Model, levels: Sequence[MeshLevel]) -> Growth:
         """Of the number of cells, as far as errors that fall as usual, or as they have, ask for it.
 
         In the plane several meshes that it takes grow alike, so that the last is no larger than it need be.
@@ -84,20 +87,31 @@ class Bounds:
         found, model : estimated, on its mesh
         levels : meshes so far, with this one
         """
-        request, d = self._request, model.dimension
-        rate = (1.0 if is_linear(model) else 2.0) / d  # power of nodes with which errors fall
+        request, d, error = self._request, model.dimension, found.of(self._request.of)
         least, most = LEAST_GROWTH if isinstance(request.of, str) else MOST_GROWTH, MOST_GROWTH
-        even = d == PLANE and isinstance(request.of, str)
-        if even:
-            few, most = found.pairs < PAIRS[d] and request.of != "energy", MOST_IN_PLANE
-            rate *= _FASTER if few else min(max(_power(levels[-2:], str(request.of)) / rate, 1.0), _FASTER)
-        elif d == IN_SPACE and request.of in ("pressure", "traction"):
-            rate *= _FALL_NEAR_CONTACT
-        needed = (min(found.of(request.of) / (SAFE_SHARE * request.error), 1e6)) ** (1.0 / rate)
-        if even and needed > most:
-            needed **= 1.0 / math.ceil(math.log(needed) / math.log(most))
+        even, in_space = (isinstance(request.of, str) and d == own for own in (PLANE, IN_SPACE))
+        lacks = min(max(error / request.error / (SHARE_IN_SPACE if in_space else SAFE_SHARE), 1.0), 1e6)
+        needed = lacks ** (1.0 / self._power(found, model, levels))
+        if even and needed > MOST_IN_PLANE:
+            needed **= 1.0 / math.ceil(math.log(needed) / math.log(MOST_IN_PLANE))
+        if even or (in_space and needed <= MOST_TO_THE_LAST):
+            most = max(needed, least)
         room = SHARE_OF_ROOM * request.nodes / len(model.mesh.points)
-        return min(max(needed, least), most, room if room > SMALLEST_GROWTH else most)
+        times = min(max(needed, least), most, room if room > SMALLEST_GROWTH else most)
+        return Growth(least=min(least, times), most=times, share=1.0 / lacks if even else 0.0)
+
+    def _power(self, found: Estimate, model: Model, levels: Sequence[MeshLevel]) -> float:
+        """Of the number of nodes, with which errors are expected to fall."""
+        of, d, linear = self._request.of, model.dimension, is_linear(model)
+        power = (1.0 if linear else 2.0) / d
+        if not isinstance(of, str) or (d == IN_SPACE and of == "energy"):
+            return power
+        if d == IN_SPACE:
+            return power * _FALL_NEAR_CONTACT
+        if linear and of != "energy":
+            power *= _LINEAR_PRESSURES
+        few = found.pairs < PAIRS[d] and of != "energy"
+        return power * (_FASTER if few else min(max(_fall(levels[-2:], of) / power, 1.0), _FASTER))
 
     def end(self, nodes: int, more: int, levels: int) -> str:
         """Why no finer mesh is tried; empty: it is.
@@ -121,7 +135,7 @@ class Bounds:
         return f"{levels} meshes were tried" if levels >= LEVELS else ""
 
 
-def _power(levels: Sequence[MeshLevel], of: str) -> float:
+def _fall(levels: Sequence[MeshLevel], of: str) -> float:
     """Of the number of nodes with which an error has fallen between two meshes; 0 where it has not, or of one mesh."""
     errors = [float(getattr(level, of)) for level in levels]
     falls = len(levels) > 1 and errors[0] > errors[1] > 0.0

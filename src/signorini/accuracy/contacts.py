@@ -18,8 +18,8 @@ from signorini.fem.stress import DeformedBodies
 from signorini.model.model import Model
 from signorini.solution.results import ContactResult
 
-_NEAREST = 4
-"""Facets whose middles are nearest to a node, of which one is opposite."""
+_NEAREST = 16
+"""Facets whose middles are nearest to a node, of which one is opposite, along its normal."""
 
 _BEYOND_END = 1e-3
 """Of the length of a facet: as far beyond its end a node is still opposite."""
@@ -158,6 +158,8 @@ def _along_side(own: _Surface, result: ContactResult, deformed: DeformedBodies, 
 def _opposite(deformed: DeformedBodies, result: ContactResult, surface: _Surface) -> tuple[IntArray, Array]:
     """Between which corners (n, 2) of the other side pairs are, and the weights of both; 0 beyond its ends.
 
+    Along the normals of the pairs, where bodies are before they move, as pairs are found.
+
     Parameters
     ----------
     deformed : bodies
@@ -165,14 +167,14 @@ def _opposite(deformed: DeformedBodies, result: ContactResult, surface: _Surface
     surface : of the mortar body
     """
     (block,) = surface.side.blocks
-    places = deformed.space.mesh.points + deformed.displacement[:, : deformed.space.dimension]
-    pairs, ends = places[result.node], places[block.corner_nodes]
-    spans = ends[:, 1] - ends[:, 0]
+    points = deformed.space.mesh.points
+    pairs, ends = points[result.node], points[block.corner_nodes]
+    spans, across = ends[:, 1] - ends[:, 0], np.column_stack([-result.normals[:, 1], result.normals[:, 0]])
     near = cKDTree(ends.mean(axis=1)).query(pairs, min(_NEAREST, len(ends)))[1].reshape(len(pairs), -1)
-    along = np.einsum("nki,nki->nk", pairs[:, None] - ends[near, 0], spans[near]) / (spans[near] ** 2).sum(axis=2)
+    there, length = (np.einsum("nki,ni->nk", part, across) for part in (pairs[:, None] - ends[near, 0], spans[near]))
+    along = there / np.where(length == 0.0, np.inf, length)
     inside = np.clip(along, 0.0, 1.0)
-    away = np.linalg.norm(pairs[:, None] - ends[near, 0] - inside[..., None] * spans[near], axis=2)
-    best, every = np.argmin(away, axis=1), np.arange(len(pairs))
+    best, every = np.argmin(np.abs(there - inside * length), axis=1), np.arange(len(pairs))
     share, beyond = inside[every, best], np.abs(along - inside)[every, best] > _BEYOND_END
     weights = np.where(beyond[:, None], 0.0, np.column_stack([1.0 - share, share]))
     return np.searchsorted(surface.nodes, block.corner_nodes[near[every, best]]), weights

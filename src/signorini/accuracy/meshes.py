@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from signorini.accuracy.curves import curves_of
+from signorini.accuracy.kept_nodes import KeptNodes
 from signorini.accuracy.node_values import CarriedValues, has_node_values
+from signorini.accuracy.rest_of_skin import with_rest, without_rest
+from signorini.accuracy.sector_sides import sector_twins
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.meshing.simplices import Curve, Simplices, corner_numbers
@@ -25,9 +28,26 @@ _FALL = 1.5
 """Power of its size with which the square of the error of a cell is expected to fall: between 3, of quadratic cells in
 the plane where stresses are smooth, and 1.5 at the end of a contact, where they grow as the root of the distance."""
 
+_FALL_TOGETHER = 2.0
+"""The same for all cells together, as they have fallen in the plane where ten pairs touch or more: 1.6 and more."""
 
 _CELLS_MORE = 4
 """Cells more for each that is refined: it becomes two to four, and neighbours are bisected too."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Growth:
+    """How many times the cells of a mesh the next one has.
+
+    Attributes
+    ----------
+    least, most : > 1
+    share : of the errors, that is enough: with fewer cells than most where they are expected to fall to it
+    """
+
+    least: float
+    most: float
+    share: float = 0.0
 
 
 class RefinedMeshes:
@@ -45,7 +65,9 @@ class RefinedMeshes:
     """
 
     def __init__(self, model: Model, request: Accuracy) -> None:
-        mesh, d = model.mesh, model.dimension
+        self._kept = KeptNodes(model)
+        model = self._kept.model
+        mesh, d = model.mesh if request.geometry is None else with_rest(model.mesh), model.dimension
         self._model, self._curves = model, _curves(mesh, request)
         cut = [family for family in mesh.cells if CORNERS[family] != d + 1]
         self._order = 1 if not cut and is_linear(model) else 2
@@ -56,6 +78,8 @@ class RefinedMeshes:
                 f"{' and '.join(cut)} cells are cut into quadratic {kind}, which are halved where they lack",
             )
         self.simplices = Simplices.of(mesh)
+        if model.cyclic_symmetries:
+            self.simplices = replace(self.simplices, twins=sector_twins(model, self.simplices))
         self._equations = [_on_corners(equation, i, mesh) for i, equation in enumerate(model.equations)]
         self._values = CarriedValues(model, self.simplices) if has_node_values(model) else None
 
@@ -63,13 +87,13 @@ class RefinedMeshes:
         """On the simplices of the mesh that was given."""
         return self._posed()
 
-    def next(self, weights: Array, growth: float) -> Model:
+    def next(self, weights: Array, growth: Growth) -> Model:
         """On simplices refined where errors are.
 
         Parameters
         ----------
         weights : (m,) squares of the errors of the cells, or what these count for
-        growth : of the number of cells, > 1
+        growth : of the number of cells
         """
         self.simplices = grown(self.simplices, weights, growth, self._curves)
         if self._values is not None:
@@ -77,7 +101,7 @@ class RefinedMeshes:
         return self._posed()
 
     def _posed(self) -> Model:
-        mesh = self.simplices.mesh(self._order, self._curves)
+        mesh = self._kept.on(without_rest(self.simplices.mesh(self._order, self._curves)))
         model = replace(self._model, mesh=mesh) if self._values is None else self._values.on(mesh)
         bodies = [
             replace(body, formulation=None) if body.formulation == "incompatible" else body for body in model.bodies
@@ -85,8 +109,8 @@ class RefinedMeshes:
         return replace(model, bodies=bodies, equations=self._equations)
 
 
-def grown(simplices: Simplices, squares: Array, growth: float, curves: dict[str, Curve]) -> Simplices:
-    """Simplices refined again and again where errors are, as they are expected to fall, until they are so many more.
+def grown(simplices: Simplices, squares: Array, growth: Growth, curves: dict[str, Curve]) -> Simplices:
+    """Simplices refined again and again where errors are, as they are expected to fall, until they are enough.
 
     Parents and origins are those since the simplices that are given.
 
@@ -94,20 +118,23 @@ def grown(simplices: Simplices, squares: Array, growth: float, curves: dict[str,
     ----------
     simplices : to begin with
     squares : (m,) of the errors of the cells
-    growth : of the number of cells, > 1
+    growth : of the number of cells
     curves : true shapes of boundaries
     """
-    found, enough = simplices, growth * len(simplices.cells)
-    sizes, left, origin, parents = _sizes(simplices), squares, simplices.origin, None
-    while len(found.cells) < enough:
-        room = int((enough - len(found.cells)) / _CELLS_MORE) + 1
+    found, least, most = simplices, *(times * len(simplices.cells) for times in (growth.least, growth.most))
+    sizes, left, together = _sizes(simplices), squares, squares
+    origin, parents = np.arange(len(squares)), np.repeat(np.arange(len(simplices.points))[:, None], 2, axis=1)
+    enough = growth.share**2 * float(squares.sum())
+    while len(found.cells) < least or (len(found.cells) < most and float(together.sum()) > enough):
+        room = int((most - len(found.cells)) / _CELLS_MORE) + 1
         finer = found.refined(marked(left)[:room], curves)
         smaller = _sizes(finer)
-        left = left[finer.origin] * (smaller / sizes[finer.origin]) ** _FALL
-        origin = finer.origin if parents is None else origin[finer.origin]
-        parents = finer.parents if parents is None else np.vstack([parents, finer.parents[len(parents) :]])
-        found, sizes = finer, smaller
-    return found if parents is None else replace(found, parents=parents, origin=origin)
+        fall = smaller / sizes[finer.origin]
+        left, together = left[finer.origin] * fall**_FALL, together[finer.origin] * fall**_FALL_TOGETHER
+        origin, sizes = origin[finer.origin], smaller
+        parents = np.vstack([parents, finer.parents[len(parents) :]])
+        found = finer
+    return replace(found, parents=parents, origin=origin)
 
 
 def _on_corners(equation: Equation, i: int, mesh: Mesh) -> Equation:

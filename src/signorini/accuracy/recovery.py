@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.accuracy._fits import add_points
+from signorini.accuracy._fits import add_points, add_work
 from signorini.arrays import Array, IntArray, among, selection
 from signorini.fem.elasticity import elasticity
 from signorini.fem.jacobian import determinants, jacobians
@@ -86,9 +86,9 @@ def stress_error(deformed: DeformedBodies) -> StressError:
         compliance = np.asarray(np.linalg.inv(elasticity(body.material, kind)), float)
         fitted = _fitted(space, own_parts)
         for part in own_parts:
-            difference, smooth, volumes = part.at_quadrature(fitted, model, space)
-            squares[part.numbers] = _work(difference, compliance, volumes)
-            total += float(_work(smooth, compliance, volumes).sum())
+            work = part.work(fitted, compliance, model, space)
+            squares[part.numbers] = work[:, 0]
+            total += float(work[:, 1].sum())
         nodes = np.flatnonzero(among([part.corners for part in own_parts], len(space.mesh.points)))
         nodal.append((nodes, fitted.coefficients[nodes, 0]))
     return StressError(squares=squares, norm_square=total, nodal=tuple(nodal))
@@ -122,17 +122,21 @@ class _Cells:
         """Of the shape functions: 1 or 2."""
         return 1 if self.nodes.shape[1] == CORNERS[self.block.family] else 2
 
-    def at_quadrature(self, fitted: _Fitted, model: Model, space: Space) -> tuple[Array, Array, Array]:
-        """Recovered stress less that of the cells, and itself, (m, q, 4 or 6), and volumes (m, q)."""
+    def work(self, fitted: _Fitted, compliance: Array, model: Model, space: Space) -> Array:
+        """``int s : C^-1 : s`` of every cell, (m, 2): of recovered stresses less those of the cell, and of these."""
         family, degree = self.block.family, _DEGREES[self.order]
         values, slopes, weights = shapes_in_cells(family, degree)
         linear = shapes_in_cells(family.rstrip("0123456789"), degree)[0]
         nodes = space.mesh.points[self.nodes]
-        at = np.einsum("qk,mki->mqi", values, nodes)
+        at = values @ nodes
         volumes = weights * np.abs(determinants(jacobians(nodes, slopes))) * measure(model, at, self.numbers)
-        smooth = fitted.at(at, linear, self.corners)
-        corners = self.block.to_nodes[: linear.shape[1]]
-        return smooth - np.einsum("qp,mpc->mqc", linear @ corners, self.stress), smooth, volumes
+        own = linear @ self.block.to_nodes[: linear.shape[1]]
+        found = np.zeros((len(self.index), 2))
+        stress, sizes = np.ascontiguousarray(self.stress), np.ascontiguousarray(volumes)
+        fits = fitted.centres, fitted.sizes, fitted.coefficients
+        cells = np.ascontiguousarray(self.corners), stress, sizes
+        add_work(cells, (np.ascontiguousarray(linear), own), at, fits, compliance, found)
+        return found
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -141,31 +145,14 @@ class _Fitted:
 
     Attributes
     ----------
-    order : of the polynomials
     centres : (n, d) places of all nodes, length
     sizes : (n,) of the patches, length
     coefficients : (n, monomials, 4 or 6) of ``(x - centre) / size``
     """
 
-    order: int
     centres: Array
     sizes: Array
     coefficients: Array
-
-    def at(self, points: Array, linear: Array, corners: IntArray) -> Array:
-        """Blended at points (m, q, d) of cells.
-
-        Parameters
-        ----------
-        points : length
-        linear : (q, a) linear shape functions there
-        corners : (m, a) of the cells
-        """
-        total = np.zeros((*points.shape[:2], self.coefficients.shape[2]))
-        for share, corner in zip(linear.T, corners.T, strict=True):
-            away = (points - self.centres[corner][:, None]) / self.sizes[corner][:, None, None]
-            total += share[:, None] * (_monomials(away, self.order) @ self.coefficients[corner])
-        return total
 
 
 def _fitted(space: Space, parts: Sequence[_Cells]) -> _Fitted:
@@ -184,9 +171,7 @@ def _fitted(space: Space, parts: Sequence[_Cells]) -> _Fitted:
         add_points(around, at, np.ascontiguousarray(part.stress), points, sizes, normal, right)
     trace = np.trace(normal, axis1=1, axis2=2)[:, None, None]
     normal += np.where(trace > 0.0, _REGULAR * trace, 1.0) * np.eye(monomials)
-    return _Fitted(
-        order=order, centres=points, sizes=sizes, coefficients=np.asarray(np.linalg.solve(normal, right), float)
-    )
+    return _Fitted(centres=points, sizes=sizes, coefficients=np.asarray(np.linalg.solve(normal, right), float))
 
 
 def _patches(space: Space, parts: Sequence[_Cells], order: int) -> tuple[sp.csr_array, Array]:
@@ -201,12 +186,14 @@ def _patches(space: Space, parts: Sequence[_Cells], order: int) -> tuple[sp.csr_
     samples = np.concatenate([np.full(len(part.index), part.stress.shape[1]) for part in parts])
     needed, there = _POINTS * _count(points.shape[1], order), touching.sum(axis=1) > 0
     narrow = there & ((touching @ samples < needed) | among(_skin(space, parts), count))
-    patches, neighbours = touching, touching @ touching.T
+    patches, around = touching, touching.T
     for _ in range(_LAYERS):
         if not narrow.any():
             break
         wider = selection(np.flatnonzero(narrow), count)
-        patches = sp.csr_array(sp.diags_array(1.0 * ~narrow) @ patches + wider.T @ (wider @ neighbours @ patches))
+        patches = sp.csr_array(
+            sp.diags_array(1.0 * ~narrow) @ patches + wider.T @ (wider @ touching @ around @ patches)
+        )
         narrow &= patches.astype(bool) @ samples < needed
     patches.eliminate_zeros()
     corners = [points[part.corners] for part in parts]
@@ -228,19 +215,5 @@ def _skin(space: Space, parts: Sequence[_Cells]) -> list[IntArray]:
 
 
 def _count(dimension: int, order: int) -> int:
-    """Monomials up to a degree."""
-    return _monomials(np.zeros((1, dimension)), order).shape[1]
-
-
-def _monomials(x: Array, order: int) -> Array:
-    """Of points (..., d), (..., monomials) up to degree 1 or 2."""
-    parts = [np.ones(x.shape[:-1]), *np.moveaxis(x, -1, 0)]
-    if order == 2:
-        parts += [parts[1 + i] * parts[1 + j] for i in range(x.shape[-1]) for j in range(i, x.shape[-1])]
-    return np.stack(parts, axis=-1)
-
-
-def _work(stress: Array, compliance: Array, volumes: Array) -> Array:
-    """``int s : C^-1 : s`` of every cell, (m,)."""
-    work: Array = np.einsum("mqc,mqc,mq->m", stress @ compliance, stress, volumes)
-    return work
+    """Monomials up to a degree, 1 or 2."""
+    return 1 + dimension + (dimension * (dimension + 1) // 2 if order == 2 else 0)

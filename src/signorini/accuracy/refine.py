@@ -11,8 +11,9 @@ from functools import partial
 import numpy as np
 
 from signorini.accuracy.bounds import Bounds
-from signorini.accuracy.estimate import Estimate, estimate
+from signorini.accuracy.estimate import IN_SPACE, Estimate, estimate
 from signorini.accuracy.meshes import RefinedMeshes
+from signorini.arrays import IntArray, among
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
 from signorini.model.accuracy import Accuracy, Asked
@@ -50,6 +51,9 @@ def accurate(model: Model, asked: Asked, solve: Callable[..., History]) -> Histo
     refuse(model, whole=True)
     if request.of != "energy" and not model.contacts:
         raise InputError("is that of pressures, and there is no contact; expected of = 'energy'", where=("accuracy",))
+    if request.of == "energy" and any(load.nodal_forces is not None for load in model.loads):
+        words = "is that of stresses, which have no limit at forces given node by node; expected one of pressures"
+        raise InputError(words, where=("accuracy",))
     return _refined(model, request, solve)
 
 
@@ -131,10 +135,9 @@ def refuse(model: Model, *, whole: bool = False) -> None:
     """
     found = [("contacts that slide far", model.slides), ("contacts that wear", model.wears)]
     if whole:
-        found += [("cyclic symmetries", bool(model.cyclic_symmetries))]
         found += [
+            ("cyclic symmetries in space", bool(model.cyclic_symmetries) and model.dimension == IN_SPACE),
             ("equations between the nodes of two sides", any(map(partial(_pairs, model.mesh), model.equations))),
-            ("forces given node by node", any(load.nodal_forces is not None for load in model.loads)),
         ]
     for name, there in found:
         if there:
@@ -142,9 +145,16 @@ def refuse(model: Model, *, whole: bool = False) -> None:
 
 
 def _pairs(mesh: Mesh, equation: Equation) -> bool:
-    """Whether an equation goes from node to node of two places, which refined meshes have elsewhere."""
+    """Whether an equation goes from node to node of two places, one of which has more nodes on refined meshes."""
     named = {on for on, _, _ in equation.terms if isinstance(on, str) and (on in mesh.boundaries or on in mesh.nodes)}
-    return sum(len(mesh.nodes_of(name)) > 1 for name in named) > 1
+    several = [mesh.nodes_of(name) for name in named if len(mesh.nodes_of(name)) > 1]
+    return len(several) > 1 and any(_joined(mesh, nodes) for nodes in several)
+
+
+def _joined(mesh: Mesh, nodes: IntArray) -> bool:
+    """Whether some cell has two of some nodes: an edge between them may be halved."""
+    held = among([nodes], len(mesh.points))
+    return any(bool((np.count_nonzero(held[cells], axis=1) > 1).any()) for cells in mesh.cells.values())
 
 
 def _known(number: float | None) -> float | None:

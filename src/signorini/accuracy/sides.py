@@ -46,9 +46,10 @@ class SideErrors:
 def side_errors(side: Boundary, result: ContactResult, recovered: tuple[Array, Array], *, linear: bool) -> SideErrors:
     """Differences of tractions that vary linearly between nodes, and what the square root at an end adds.
 
-    With differences d and e at the ends of a facet of the area A: ``A (d^2 + d e + e^2) / 3``. Of linear cells
-    recovered stresses are off by much the same in all of a contact, while its pressures are in balance with the loads:
-    there d and e are those of pairs that touch, without their mean.
+    With differences d and e at the ends of a facet of the area A: ``A (d^2 + d e + e^2) / 3``, where one end touches at
+    least: on the others pressures are 0 in truth, too, whatever a corner nearby does to recovered stresses. Of linear
+    cells these are off by much the same in all of a contact, while its pressures are in balance with the loads: there
+    d and e are those of pairs that touch, without their mean.
 
     Parameters
     ----------
@@ -77,14 +78,15 @@ def side_errors(side: Boundary, result: ContactResult, recovered: tuple[Array, A
     if linear:
         difference = chain.balanced(difference, result.area)
     first, second = chain.at_ends(difference)
-    nodal = chain.areas[:, None] * (first**2 + second**2 + first * second) / 3.0
-    ends = chain.at_contact_ends(result.pressure)
-    slipping = chain.at_contact_ends(np.linalg.norm(result.shear, axis=1))
+    weights = chain.areas * chain.closed[chain.rows].any(axis=1)
+    nodal = weights[:, None] * (first**2 + second**2 + first * second) / 3.0
+    ends, at_end = chain.at_contact_ends(result.pressure, result.pressure + difference[:, 0])
+    slipping, _ = chain.at_contact_ends(*(2 * [np.linalg.norm(result.shear, axis=1)]))
     one, other = chain.at_ends(result.pressure[:, None])
     scale = chain.areas * (one**2 + other**2 + one * other)[:, 0] / 3.0
     return SideErrors(
         corners=side.blocks[0].corner_nodes,
-        pressure=nodal[:, 0] + ends,
+        pressure=np.where(at_end, ends, nodal[:, 0]),
         friction=nodal[:, 1:].sum(axis=1) + slipping,
         scale=scale,
     )
@@ -129,33 +131,40 @@ class _Chain:
         total = own.sum()
         return np.where(own > 0.0, values - (own * values).sum(axis=0) / (total if total > 0.0 else 1.0), 0.0)
 
-    def at_contact_ends(self, values: Array) -> Array:
-        """(m,) Square of what a root of the distance from the end of the contact is away from its chords.
+    def at_contact_ends(self, values: Array, smoother: Array) -> tuple[Array, BoolArray]:
+        """(m,) Square of what a root of the distance from the end of the contact is away from chords, and where.
 
-        Squares of the values fall linearly over the last two nodes of a contact and go on so, to 0 before the next
-        node, where it is open: between two nodes with the values 0 and b the square of the difference is b^2 / 30 on
-        the mean.
+        Squares of smoother values fall linearly over the last two nodes of a contact and go on so, to 0 before the next
+        node, where it is open: between two nodes with the values 0 and b, smoother alike, the square of the difference
+        is b^2 / 30 on the mean. It holds what values lack at the nodes, too.
 
         Parameters
         ----------
-        values : (n,) >= 0
+        values, smoother : (n,)
         """
-        values = np.append(np.maximum(values, 0.0), 0.0)
-        found = np.zeros(len(self.rows))
+        values, smoother = (np.append(np.maximum(part, 0.0), 0.0) for part in (values, smoother))
+        found, ends = np.zeros(len(self.rows)), np.zeros(len(self.rows), dtype=np.bool_)
         for near, far in ((0, 1), (1, 0)):
             own, beyond = self.rows[:, near], self.rows[:, far]
             outer = np.flatnonzero(self.closed[own] & ~self.closed[beyond])
             inner = self._behind(outer, own[outer])
-            before = np.where(
-                inner >= 0, values[np.where(self.rows[inner, 0] == own[outer], *self.rows[inner].T[::-1])], 0.0
-            )
-            last, falls = values[own[outer]], before > values[own[outer]]
+            behind = np.where(self.rows[inner, 0] == own[outer], *self.rows[inner].T[::-1])
+            low, last = smoother[own[outer]], values[own[outer]]
+            high = np.where(inner >= 0, smoother[behind], 0.0)
+            falls = high > low
             run = np.where(falls, self.areas[inner] / self.areas[outer], 1.0)
-            drop = np.where(falls, before**2 - last**2, last**2)
-            reach = np.minimum(np.where(drop > 0.0, run * last**2 / np.where(drop > 0.0, drop, 1.0), 1.0), 1.0)
-            found[outer] += self.areas[outer] * last**2 * (1.0 / 3.0 - 5.0 * reach / 6.0 + 8.0 * reach**2 / 15.0)
-            np.add.at(found, inner[falls], (self.areas[inner] * _beside_chord(last, before))[falls])
-        return found
+            drop = np.where(falls, high**2 - low**2, low**2)
+            reach = np.minimum(np.where(drop > 0.0, run * low**2 / np.where(drop > 0.0, drop, 1.0), 1.0), 1.0)
+            cross = last * low * (4.0 * reach / 3.0 - 8.0 * reach**2 / 15.0)
+            found[outer] += self.areas[outer] * (last**2 / 3.0 - cross + 0.5 * low**2 * reach)
+            before = values[behind[falls]]
+            np.add.at(
+                found,
+                inner[falls],
+                self.areas[inner[falls]] * _beside_chord(low[falls], high[falls], last[falls], before),
+            )
+            ends[outer], ends[inner[falls]] = True, True
+        return found, ends
 
     def _behind(self, facets: IntArray, rows: IntArray) -> IntArray:
         """The other facet at a node of each, closed at both ends; -1: none."""
@@ -169,14 +178,18 @@ class _Chain:
         return found
 
 
-def _beside_chord(low: Array, high: Array) -> Array:
-    """Mean square of what ``sqrt(a^2 + (b^2 - a^2) s)`` is away from ``a + (b - a) s`` over s from 0 to 1.
+def _beside_chord(low: Array, high: Array, last: Array, before: Array) -> Array:
+    """Mean square of what ``sqrt(a^2 + (b^2 - a^2) s)`` is away from ``c + (d - c) s`` over s from 0 to 1.
 
     Parameters
     ----------
     low, high : a and b, not both 0
+    last, before : c and d
     """
     squares = low**2 + low * high + high**2
-    fourths = low**4 + low**3 * high + low**2 * high**2 + low * high**3 + high**4
-    product = 2.0 * (low * high * squares / 3.0 + fourths / 5.0) / np.maximum((low + high) ** 2, 1e-300)
-    return np.asarray(np.maximum(0.5 * (low**2 + high**2) + squares / 3.0 - 2.0 * product, 0.0))
+    cubes = 2.0 * low**3 + 4.0 * low**2 * high + 6.0 * low * high**2 + 3.0 * high**3
+    mean, moment = 2.0 * squares / (3.0 * (low + high)), 2.0 * cubes / (15.0 * (low + high) ** 2)
+    chord = (last**2 + last * before + before**2) / 3.0
+    return np.asarray(
+        np.maximum(chord + 0.5 * (low**2 + high**2) - 2.0 * (last * mean + (before - last) * moment), 0.0)
+    )

@@ -4,25 +4,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from signorini.arrays import Array, BoolArray, IntArray, among, distinct
 from signorini.errors import InputError
+from signorini.meshing.edge_keys import SIMPLEX_EDGES, edge_ends, edge_key, edge_keys, merged
 from signorini.meshing.facets import facet_corners, make_facets, unshared
 from signorini.meshing.tetrahedra import cone_simplices, triangles_of
+from signorini.meshing.twin_edges import NO_TWINS, halved_twins, with_twins
 from signorini.model.mesh import CORNERS, EDGES, NODES_PER_SOLID_CELL, Mesh
 
 Curve = Callable[[Array], Array]
 """Of a boundary: the points of its true shape that are nearest to points (k, d), length."""
-
-_EDGES = {2: ((0, 1),), 3: ((0, 1), (1, 2), (2, 0)), 4: EDGES["tetra10"]}
-"""Edges of a simplex by the number of its corners, in the order of its middle nodes."""
-
-_SHIFT = 32  # bits for the number of a node: the key of an edge holds two
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -39,6 +34,7 @@ class Simplices:
     bends : keys of edges, ascending, and how far the middle of each is from that of its ends, (k, d) length
     parents : (n, 2) ends of the edge that a corner has halved; the corner itself, twice, where it has halved none
     origin : (m,) the cell of the mesh, or of the simplices before, that each is a part of
+    twins : (k, 4) edges of the plane that are halved alike, see :func:`signorini.meshing.twin_edges.twin_edges`
     """
 
     points: Array
@@ -50,6 +46,7 @@ class Simplices:
     bends: tuple[IntArray, Array]
     parents: IntArray
     origin: IntArray
+    twins: IntArray = field(default_factory=lambda: NO_TWINS)
 
     @staticmethod
     def of(mesh: Mesh) -> Simplices:
@@ -113,7 +110,7 @@ class Simplices:
         cells, origin = self.cells, np.arange(len(self.cells))
         boundaries = dict(self.boundaries)
         own = cells[np.asarray(marked, dtype=np.int64)]
-        first = _edge_keys(own).ravel() if cells.shape[1] == 3 else halves.longest_edges(own)
+        first = edge_keys(own).ravel() if cells.shape[1] == 3 else halves.longest_edges(own)
         halves.halve(first, boundaries, curves)
         while True:
             asked, longest = halves.longest(cells)
@@ -133,6 +130,7 @@ class Simplices:
             nodes={name: _with_halves(own, parents, len(self.points)) for name, own in self.nodes.items()},
             boundaries=boundaries,
             bends=halves.bends,
+            twins=halves.twins,
             parents=parents,
             origin=origin,
         )
@@ -161,13 +159,13 @@ class Simplices:
         corners = self.cells.shape[1]
         if order == 1:
             return self._mesh(self.points, {"triangle" if corners == 3 else "tetra": self.cells}, {}, self.nodes)
-        keys, number = np.unique(_edge_keys(self.cells), return_inverse=True)
+        keys, number = np.unique(edge_keys(self.cells), return_inverse=True)
         middles = len(self.points) + number.reshape(len(self.cells), -1)
-        ends = np.column_stack([keys >> _SHIFT, keys & ((1 << _SHIFT) - 1)])
+        ends = edge_ends(keys)
         at = self.points[ends].mean(axis=1) + _bend(self.bends, keys)
         boundaries = {}
         for name, facets in self.boundaries.items():
-            edges = np.searchsorted(keys, _edge_keys(facets))
+            edges = np.searchsorted(keys, edge_keys(facets))
             if curves and name in curves and len(facets):
                 own = distinct(edges)
                 at[own] = curves[name](at[own])
@@ -192,7 +190,7 @@ class Simplices:
 
 def edge_corners(corners: int) -> IntArray:
     """(e, 2) Which corners of a simplex its edges join, in the order of their middle nodes."""
-    return np.array(_EDGES[corners])
+    return np.array(SIMPLEX_EDGES[corners])
 
 
 def corner_numbers(mesh: Mesh) -> IntArray:
@@ -208,7 +206,7 @@ class _Halves:
 
     def __init__(self, simplices: Simplices) -> None:
         self.points = simplices.points
-        self.bends = simplices.bends
+        self.bends, self.twins = simplices.bends, simplices.twins
         self.ends = np.empty((0, 2), np.int64)
         self._keys: IntArray = np.empty(0, np.int64)
         self._corner: IntArray = np.empty(0, np.int64)
@@ -223,25 +221,26 @@ class _Halves:
         boundaries : the corners of their facets
         curves : true shapes of boundaries
         """
-        keys = distinct(keys)
+        keys = with_twins(distinct(keys), self.twins)
         keys = keys[self.corner(keys) < 0]
-        ends = np.column_stack([keys >> _SHIFT, keys & ((1 << _SHIFT) - 1)])
+        ends = edge_ends(keys)
         bend = _bend(self.bends, keys)
         at = self.points[ends].mean(axis=1) + bend
         for name, curve in curves.items():
-            own = np.isin(keys, _edge_keys(boundaries[name]))
+            own = np.isin(keys, edge_keys(boundaries[name]))
             if own.any():
                 at[own] = curve(at[own])
         corner = len(self.points) + np.arange(len(keys))
-        self._keys, self._corner = _merged((self._keys, self._corner), (keys, corner))
+        self._keys, self._corner = merged((self._keys, self._corner), (keys, corner))
         self.points, self.ends = np.vstack([self.points, at]), np.vstack([self.ends, ends])
         self._ended = np.concatenate([self._ended, np.zeros(len(keys), dtype=np.bool_)])
         self._ended[ends] = True
         bent = bend.any(axis=1)
-        halves = [_key(end[bent], corner[bent]) for end in ends.T]
+        halves = [edge_key(end[bent], corner[bent]) for end in ends.T]
         given = np.concatenate(halves), np.tile(bend[bent] / 4.0, (2, 1))  # of a parabola at a quarter
         order = np.argsort(given[0])
-        self.bends = _merged(self.bends, (given[0][order], given[1][order]))
+        self.bends = merged(self.bends, (given[0][order], given[1][order]))
+        self.twins = halved_twins(self.twins, self.corner)
 
     def corner(self, keys: IntArray) -> IntArray:
         """In the middle of edges, -1 of those that are not halved."""
@@ -253,26 +252,26 @@ class _Halves:
     def longest(self, simplices: IntArray) -> tuple[BoolArray, IntArray]:
         """(m,) Which simplices have a halved edge, and the key of the longest edge of each."""
         asked: BoolArray = np.count_nonzero(self._ended[simplices], axis=1) > 1  # most have no such corners
-        asked[asked] = (self.corner(_edge_keys(simplices[asked])) >= 0).any(axis=1)
+        asked[asked] = (self.corner(edge_keys(simplices[asked])) >= 0).any(axis=1)
         longest = np.full(len(simplices), -1)
         longest[asked] = self.longest_edges(simplices[asked])
         return asked, longest
 
     def longest_edges(self, simplices: IntArray) -> IntArray:
         """(m,) Keys of the longest edges; of equally long ones that with the larger numbers."""
-        keys = _edge_keys(simplices)
-        ends = self.points[keys >> _SHIFT] - self.points[keys & ((1 << _SHIFT) - 1)]
+        keys = edge_keys(simplices)
+        ends = np.diff(self.points[edge_ends(keys)], axis=2)[:, :, 0]
         length = np.einsum("mei,mei->me", ends, ends)
         return np.asarray(np.where(length == length.max(axis=1, keepdims=True), keys, -1).max(axis=1))
 
     def bisected(self, simplices: IntArray, asked: BoolArray) -> tuple[IntArray, IntArray]:
         """Simplices with those asked for in halves, and the simplex that each comes from."""
         own = simplices[asked]
-        keys, longest = _edge_keys(own), self.longest(own)[1]
+        keys, longest = edge_keys(own), self.longest(own)[1]
         edge = np.argmax(keys == longest[:, None], axis=1)
         middle, row = self.corner(longest), np.arange(len(own))
         first, second = own.copy(), own.copy()
-        ends = np.array(_EDGES[own.shape[1]])[edge]
+        ends = np.array(SIMPLEX_EDGES[own.shape[1]])[edge]
         first[row, ends[:, 1]] = middle
         second[row, ends[:, 0]] = middle
         source = np.flatnonzero(asked)
@@ -287,24 +286,6 @@ class _Halves:
                 break
             facets, _ = self.bisected(facets, asked)
         return facets
-
-
-def _edge_keys(simplices: IntArray) -> IntArray:
-    """(m, e) One number for every edge."""
-    first, second = np.array(_EDGES[simplices.shape[1]]).T
-    return _key(simplices[:, first], simplices[:, second])
-
-
-def _key(one: IntArray, other: IntArray) -> IntArray:
-    key: IntArray = (np.minimum(one, other) << _SHIFT) | np.maximum(one, other)
-    return key
-
-
-def _merged(known: tuple[IntArray, NDArray[Any]], more: tuple[IntArray, NDArray[Any]]) -> tuple[IntArray, NDArray[Any]]:
-    """Two tables of keys, ascending, and values as one."""
-    keys = np.concatenate([known[0], more[0]])
-    order = np.argsort(keys, kind="stable")
-    return keys[order], np.concatenate([known[1], more[1]])[order]
 
 
 def _bend(bends: tuple[IntArray, Array], keys: IntArray) -> Array:
@@ -329,8 +310,8 @@ def _bends(mesh: Mesh, number: IntArray) -> tuple[IntArray, Array]:
             offset = points[cells[:, CORNERS[family] + i]] - points[ends].mean(axis=1)
             length = np.linalg.norm(np.diff(points[ends], axis=1)[:, 0], axis=1)
             bent = np.linalg.norm(offset, axis=1) > 1e-12 * length  # rounding of coordinates
-            bent &= np.isin(_key(*ends.T), bounding)
-            found.append((_key(*number[ends[bent]].T), offset[bent]))
+            bent &= np.isin(edge_key(*ends.T), bounding)
+            found.append((edge_key(*number[ends[bent]].T), offset[bent]))
     if not found:
         return np.empty(0, np.int64), np.empty((0, points.shape[1]))
     keys, first = np.unique(np.concatenate([key for key, _ in found]), return_index=True)
@@ -345,7 +326,7 @@ def _bounding_edges(mesh: Mesh) -> IntArray:
     keys = []
     for part in named:
         corners = part[:, : facet_corners(d, part.shape[1])]
-        keys += [_key(one, other) for one, other in zip(corners.T, np.roll(corners, -1, axis=1).T, strict=True)]
+        keys += [edge_key(one, other) for one, other in zip(corners.T, np.roll(corners, -1, axis=1).T, strict=True)]
     return distinct(np.concatenate(keys))
 
 
