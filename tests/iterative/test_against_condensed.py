@@ -8,6 +8,7 @@ import pytest
 
 import signorini as sg
 from signorini.engine import memory_check
+from signorini.engine.way_costs import Condensing
 from signorini.gallery.blocks import block_on_foundation, dragged_block, four_blocks, stacked_blocks
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
@@ -84,7 +85,7 @@ def test_what_does_not_fit_is_iterated(monkeypatch):
     """And what fits in no way is refused before anything large is made, with what it takes."""
     model = cubes(0.3, floating=False)
     assert sg.solve(model).backend == "multifrontal"
-    monkeypatch.setattr(memory_check, "condensing_bytes", lambda *_, **__: 2e9)
+    monkeypatch.setattr(memory_check, "condensing", lambda *_, **__: Condensing(2e9, 0.0, 0))
     monkeypatch.setattr(memory_check, "available_memory", lambda: 1_000_000_000)
     assert sg.solve(model).backend == "iterative"
     with pytest.raises(sg.InputError, match=r"take about 2 GB to factorise .* and 1 GB .* back end 'iterative', a coa"):
@@ -105,7 +106,7 @@ def test_bodies_that_yield_are_counted_with_their_tangents(monkeypatch):
     model = cubes(0.3, floating=False)
     soft = [replace(body, material=replace(body.material, plastic=sg.Plastic(100.0))) for body in model.bodies]
     yielding = replace(model, bodies=[replace(body, formulation="mean dilatation") for body in soft])
-    monkeypatch.setattr(memory_check, "condensing_bytes", lambda *_, **__: 0.7e9)
+    monkeypatch.setattr(memory_check, "condensing", lambda *_, **__: Condensing(0.7e9, 0.0, 0))
     monkeypatch.setattr(memory_check, "available_memory", lambda: 1_000_000_000)
     assert sg.solve(model).backend == "multifrontal"
     assert sg.solve(yielding).backend == "iterative"

@@ -6,8 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
+import numpy as np
+
+from signorini.arrays import Array
 from signorini.checks import number
 from signorini.errors import InputError, one_of
+from signorini.interface.interface import Interface, under_laws
 from signorini.model.conditions import Load, Temperature
 from signorini.model.contact import Contact
 from signorini.model.model import Model
@@ -42,6 +46,35 @@ def changed_model(
     factors = {name: number(value, ("loads", name)) for name, value in (loads or {}).items()}
     hot = [replace(load, temperature=_times(load, factors)) for load in model.loads]
     return replace(model, contacts=contacts, loads=hot), factors
+
+
+def changed_interface(interface: Interface, before: Model, after: Model) -> Interface:
+    """The pairs of a model with the friction and the interferences of the changed one.
+
+    Parameters
+    ----------
+    interface, before : as they were
+    after : changed
+    """
+    contacts = zip(after.contacts, before.contacts, strict=True)
+    overlap = np.array([new.constant_interference - old.constant_interference for new, old in contacts])
+    laws = under_laws(interface, after, [contact.law for contact in after.contacts])
+    return replace(laws, gap=interface.gap - overlap[interface.contact])
+
+
+def scaled(given: Mapping[str, Array], factor: Mapping[str, float]) -> dict[str, Array]:
+    """Loads or prescribed displacements times their factors, 1 where there is none.
+
+    Parameters
+    ----------
+    given, factor : by name
+
+    Examples
+    --------
+    >>> scaled({"push": np.array([2.0]), "pull": np.array([1.0])}, {"push": 3.0})
+    {'push': array([6.]), 'pull': array([1.])}
+    """
+    return {name: factor.get(name, 1.0) * values for name, values in given.items()}
 
 
 def _changed_contact(contact: Contact, friction: Mapping[str, float], interference: Mapping[str, float]) -> Contact:

@@ -6,6 +6,15 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import BoolArray
+from signorini.engine.way_costs import (
+    CONDENSED,
+    ITERATED,
+    Condensing,
+    Way,
+    cheaper_way,
+    condensing_work,
+    iterating_work,
+)
 from signorini.errors import InputError
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
@@ -29,6 +38,7 @@ _KEPT_TWICE = (
 _SHARED = {"tetra": 0.17, "wedge": 0.29}
 _SHARED_ELSE = 0.39
 _GENEROUS = 300.0, 1.0, 60.0, 4.0 / 3.0  # entries of the factor: at most 300 z in the plane, 60 z^(4/3) in space
+_GENEROUS_WORK = 40.0  # operations of a factorisation in space: at most 40 z^2
 _SQUARE = 4, 6  # dense matrices of the size of the contact dofs, and of that of the pairs' rows, held at once
 _SHARE = 0.5  # of the memory that there is: what displacements that are asked for may fill
 
@@ -54,14 +64,17 @@ def refuse_unassembled(model: Model) -> None:
         )
 
 
-def iterates(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray, backend: str, yields: bool) -> bool:
-    """Whether contact is solved on the bodies as they are: where that is asked for, or nothing else fits.
+def way_through(
+    bodies: FreeBodies, interface: Interface, *, candidates: BoolArray, backend: str, yields: bool, increments: float
+) -> Way:
+    """How contact is solved: condensed, or on the bodies as they are where that is asked for, cheaper or all that fits.
 
     Parameters
     ----------
-    bodies, interface, candidates : as of `condensing_bytes`
+    bodies, interface, candidates : as of `condensing`
     backend : as asked for
     yields : whether tangents are made of the bodies too
+    increments : in which contact is solved; infinite: the cheaper way is not asked for
 
     Raises
     ------
@@ -70,22 +83,24 @@ def iterates(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray,
     """
     K = bodies.K
     if not K.nnz:  # nothing deforms, so there is nothing to iterate on
-        return False
+        return CONDENSED
     times, more = (_KEPT_TWICE, _TANGENTS * K.nnz) if yields else (1.0, 0.0)
     room, iterated = available_memory(), times * _ITERATION * K.nnz + more
     if backend == ITERATIVE and len(bodies.kept):
         raise InputError("back end 'iterative' does not know contacts that slide far; expected another, or small slips")
     if backend == ITERATIVE:
         if iterated <= room:
-            return True
+            return ITERATED
         needs, ways = f"{_size(iterated)} to iterate on", ""
     else:
-        plenty = (0.5 * room - more) / times
-        condensed = times * condensing_bytes(bodies, interface, candidates=candidates, plenty=plenty) + more
+        plenty, dear = (0.5 * room - more) / times, iterating_work(K.nnz, 1.0) if increments < np.inf else np.inf
+        found = condensing(bodies, interface, candidates=candidates, plenty=plenty, dear=dear)
+        condensed = times * found.bytes + more
         if condensed <= room:
-            return False
+            cheap = increments < np.inf and iterated <= room
+            return cheaper_way(found, K.nnz, increments) if cheap else CONDENSED
         if backend == "auto" and iterated <= room and not len(bodies.kept):
-            return True
+            return ITERATED
         needs = f"{_size(condensed)} to factorise and condense, {_size(iterated)} to iterate on"
         ways = f"back end '{ITERATIVE}', " if iterated <= room else ""
     raise InputError(
@@ -94,25 +109,31 @@ def iterates(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray,
     )
 
 
-def condensing_bytes(bodies: FreeBodies, interface: Interface, *, candidates: BoolArray, plenty: float) -> float:
-    """Bytes at the worst time of :func:`signorini.condense.condensed.condense` and of the law on its result.
+def condensing(
+    bodies: FreeBodies, interface: Interface, *, candidates: BoolArray, plenty: float, dear: float = np.inf
+) -> Condensing:
+    """What :func:`signorini.condense.condensed.condense` takes, and the law on its result.
 
     Parameters
     ----------
     bodies : as they are
     interface : the pairs
     candidates : (n,) pairs that may touch
-    plenty : bytes; where a generous bound stays below, it is returned and the pattern of K is not analysed
+    plenty, dear : bytes and operations; where generous bounds stay below, the pattern of K is not analysed
     """
     K, B, nodes, points = bodies[:4]
     chosen = interface.rows(candidates | interface.tied)
     dofs = np.unique(np.concatenate([B[np.flatnonzero(chosen)].indices, bodies.kept]))
-    dense = _SQUARE[1] * int(np.count_nonzero(chosen)) ** 2
+    rows = int(np.count_nonzero(chosen))
+    dense = _SQUARE[1] * rows**2
     if interface.directions == 2 or interface.tied.any() or not takes_borders("auto"):
         dense += _SQUARE[0] * len(dofs) ** 2  # where contact nodes are kept; else nothing is dense but pairs
     factor, power = _GENEROUS[:2] if interface.directions == 2 else _GENEROUS[2:]
-    bound = 8.0 * (factor * K.shape[0] ** power + dense)
-    return bound if bound <= plenty else analyse(checked_system(K, dofs, nodes, points)).peak_bytes + 8.0 * dense
+    bound = Condensing(8.0 * (factor * K.shape[0] ** power + dense), _GENEROUS_WORK * K.shape[0] ** 2.0, rows)
+    if bound.bytes <= plenty and condensing_work(bound, K.nnz) <= dear:
+        return bound
+    plan = analyse(checked_system(K, dofs, nodes, points))
+    return Condensing(plan.peak_bytes + 8.0 * dense, plan.flops, rows)
 
 
 def _size(number: float) -> str:

@@ -41,10 +41,12 @@ class MultiplierSolver:
     ----------
     bodies : stiffness and pairs
     settings : limits of the rounds
+    most : conjugate gradients that an increment may take, before bodies are condensed after all
     """
 
     bodies: IteratedPairs
     settings: SolverSettings
+    most: float = np.inf
 
     @property
     def name(self) -> str:
@@ -145,6 +147,7 @@ class MultiplierSolver:
             length=length,
             tolerance=max(self.settings.tolerance, increment.allowed_lack),
             rounds=self.settings.multiplier_rounds,
+            most=self.most,
             floating=increment.floating,
         )
         with increment.clock.phase("complementarity"):

@@ -17,19 +17,20 @@ from signorini.distributed.refusals import refuse_model
 from signorini.engine.bond_company import refuse_held
 from signorini.engine.bond_solver import with_laws
 from signorini.engine.candidate_pairs import candidate_pairs
-from signorini.engine.changed_model import changed_model
+from signorini.engine.changed_model import changed_interface, changed_model, scaled
 from signorini.engine.condensation import assembled, condense_bodies, free_bodies, softness, with_ties
 from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
-from signorini.engine.memory_check import iterates
+from signorini.engine.memory_check import way_through
 from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers, with_factors
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.tangent_bodies import TangentBodies
+from signorini.engine.way_costs import CONDENSED, increments_before, increments_of
 from signorini.errors import InputError
 from signorini.fem.rigid import resistance
 from signorini.fem.stiffness import reduced_stiffness
 from signorini.fem.supports import make_constraints
-from signorini.interface.interface import Interface, under_laws
+from signorini.interface.interface import Interface
 from signorini.interface.worn_sides import WornSides, worn_sides
 from signorini.linalg.plan import Plans
 from signorini.linalg.threads import one_thread
@@ -42,15 +43,9 @@ from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Loading, data_scale, loading_of
 from signorini.solution.state import State
 
-UNCONDENSED = (
-    "an exact path needs the condensed interface, and this model is solved by iteration, because its factor does not "
-    "fit or because it was asked for; expected path = 'increments'"
-)
-
-_UNCONDENSED_WEAR = (
-    "needs the condensed interface, and this model is solved by iteration, because its factor does not fit or because "
-    "it was asked for; expected a smaller model, or none that wears"
-)
+_ITERATED = "the condensed interface, and this model is solved by iteration, because its factor does not fit or because"
+UNCONDENSED = f"an exact path needs {_ITERATED} it was asked for; expected path = 'increments'"
+_UNCONDENSED_WEAR = f"needs {_ITERATED} it was asked for; expected a smaller model, or none that wears"
 
 _KEPT = 4  # factorisations: a history needs one for each set of supports, and seldom two for its pairs
 
@@ -76,6 +71,8 @@ class Prepared(Examined, DiscreteModel):
     meshed : the same on the mesh as it was given, where it has moved with what is worn; None where it has not
     plans, reduced : of the factorisation, and (z, z) stiffness, for tangents of bodies that yield; None where none does
     kept : the last that was factorised, by supports released and candidates, to be found again; None: nothing is kept
+    increments : that a factor would have served so far; infinite where the cheaper way is not asked for
+    worth : how many of them are worth a factorisation; 0 where bodies are condensed, infinite where none fits
     """
 
     solver: ContactSolver
@@ -94,6 +91,8 @@ class Prepared(Examined, DiscreteModel):
     plans: Plans | None = None
     reduced: sp.csr_array | None = None
     kept: dict[tuple[frozenset[str], bytes], Condensed] | None = None
+    increments: float = np.inf
+    worth: float = 0.0
 
     @property
     def paths(self) -> CondensedSolver:
@@ -114,26 +113,35 @@ class Prepared(Examined, DiscreteModel):
         return not (self.candidates | self.solver.held | self.interface.tied).all()
 
     def widened(self) -> Prepared:
-        """With every pair in the law, factorised anew."""
-        return self._made_again(np.ones(len(self.interface), bool))
+        """With every pair in the law, factorised anew; where all are in it, condensed after all."""
+        if self.limited:
+            return self._made_again(np.ones(len(self.interface), bool))
+        return replace(self, increments=np.inf)._made_again(self.candidates)
+
+    @property
+    def spared(self) -> bool:
+        """Whether bodies that could be condensed are iterated on, because that is cheaper."""
+        return 0.0 < self.worth < np.inf
 
     def ready(self, stage: Stage, before: Loading) -> tuple[Prepared, Loading]:
         """Under the supports of a step and with the pairs that it can close; and the most imposed up to its end.
 
-        Factorised anew where supports change, or where the step reaches farther than any before.
+        Factorised anew where supports change, the step reaches farther than any before, or it is worth it at last.
 
         Parameters
         ----------
         stage : the step
         before : the most that was imposed before it
         """
-        now = self if stage.released == self.released else self._released(stage.released)
+        stays = stage.released == self.released
+        now = self if stays else self._released(stage.released)
         loading = loading_of(stage, now.loads, now.posed, before)
-        if now is self and self.candidates.all():
-            return self, loading
+        if self.spared:
+            now = replace(now, increments=self.increments + increments_of(stage, now))
+            stays = stays and now.increments < self.worth
         found = candidate_pairs(now, loading, self.candidates)
-        if now is self and found is self.candidates:
-            return self, loading
+        if stays and found is self.candidates:
+            return now, loading
         return now._made_again(found), loading
 
     def _released(self, released: frozenset[str]) -> Prepared:
@@ -154,7 +162,9 @@ class Prepared(Examined, DiscreteModel):
         posed = replace(self, constraints=replace(self.constraints, prescribed=self.posed))
         key = self.released, candidates.tobytes()
         known = self.kept.get(key) if self.kept else None
-        made = condensed_model(posed, self.K, candidates, self.backend, self.settings, self.clock, known)
+        made = condensed_model(
+            posed, self.K, candidates, self.backend, self.settings, self.clock, known, self.increments
+        )
         if known is None and self.kept is not None and made.solver.condensed is not None:
             if len(self.kept) >= _KEPT:
                 self.kept.pop(next(iter(self.kept)))
@@ -192,10 +202,10 @@ class Prepared(Examined, DiscreteModel):
 
     def multipliers(self, patience: int) -> MultiplierSolver:
         """The solver of `with_multipliers`; ``patience`` as there."""
-        T, nodes = self.constraints.transform, self.constraints.nodes
+        T = self.constraints.transform
         K, B = reduced_stiffness(self.K, T), sp.csr_array(self.interface.B @ T)
-        solver = make_multipliers(self, K, B, self.solver.active, self.settings)
-        return with_factors(solver.without(self.absent), nodes, self.space.places, patience)
+        solver = make_multipliers(self, K, B, self.solver.active, self.settings).without(self.absent)
+        return with_factors(solver, self.constraints.nodes, self.space.places, patience)
 
     @property
     def flows(self) -> bool:
@@ -249,28 +259,18 @@ class Prepared(Examined, DiscreteModel):
             For an unknown name, a wrong value, or a body that is left with nothing but frictionless contact.
         """
         model, factor = changed_model(self.model, friction=friction, interference=interference, loads=loads)
-        own, pairs = self.interface.contact, zip(model.contacts, self.model.contacts, strict=True)
-        overlap = np.array([new.constant_interference - old.constant_interference for new, old in pairs])
-        interface = replace(
-            under_laws(self.interface, model, [contact.law for contact in model.contacts]),
-            gap=self.interface.gap - overlap[own],
-        )
+        interface = changed_interface(self.interface, self.model, model)
         now = replace(
             self,
             model=model,
-            constraints=replace(self.constraints, prescribed=_scaled(self.constraints.prescribed, factor)),
-            posed=_scaled(self.posed, factor),
-            loads=_scaled(self.loads, factor),
+            constraints=replace(self.constraints, prescribed=scaled(self.constraints.prescribed, factor)),
+            posed=scaled(self.posed, factor),
+            loads=scaled(self.loads, factor),
             multiplied=factor | {name: factor.get(name, 1.0) * old for name, old in self.multiplied.items()},
             clock=Clock(),
         )
         refuse_free_motions(self.space, self.resisted, interface, self.parts, self.motions)
         return now.under(interface, loading_of(next(stages(model)), now.loads, now.posed), self.absent)
-
-
-def _scaled(given: Mapping[str, Array], factor: Mapping[str, float]) -> dict[str, Array]:
-    """Loads or prescribed displacements times their factors, 1 where there is none."""
-    return {name: factor.get(name, 1.0) * values for name, values in given.items()}
 
 
 @one_thread()
@@ -281,6 +281,7 @@ def prepare(
     backend: str = "auto",
     settings: SolverSettings | None = None,
     clock: Clock | None = None,
+    saves: bool = False,
 ) -> Prepared:
     """Examine, assemble and condense; pairs that seem too far apart to touch are left out.
 
@@ -289,8 +290,8 @@ def prepare(
     model : the problem
     start : from which the history goes on; its pairs are taken along
     backend : of the factorisation, "auto", a name, "iterative" or "petsc"
-    settings : limits of the methods
-    clock : counts the seconds
+    settings, clock : limits of the methods; counts the seconds
+    saves : whether bodies that are solved for few increments may be iterated on because that is cheaper
 
     Raises
     ------
@@ -304,8 +305,12 @@ def prepare(
         examined = examine(model, start=start)
         K = assembled(examined, backend)
         near = candidate_pairs(examined, examined.loading, None if start is None else start.near)
-    made = condensed_model(examined, K, near, backend, settings or SolverSettings(), clock)
     before = None if start is None else start.standing
+    first = increments_before(examined, start, backend) if saves else np.inf
+    number = first + increments_of(next(stages(model, before=before)), examined)
+    made = condensed_model(examined, K, near, backend, settings or SolverSettings(), clock, increments=number)
+    if made.spared:  # every step counts its own
+        made = replace(made, increments=first)
     wearing = worn_sides(made.space, made.model, made.interface) if model.wears else None
     if wearing is not None and made.solver.condensed is None:
         raise InputError(_UNCONDENSED_WEAR, where=("contact", int(wearing.contact[0]), "wear"))
@@ -335,6 +340,7 @@ def condensed_model(
     settings: SolverSettings,
     clock: Clock,
     known: Condensed | None = None,
+    increments: float = np.inf,
 ) -> Prepared:
     """Factorise the bodies with the nodes of the candidates last and put the law on them, or leave them as they are.
 
@@ -343,12 +349,13 @@ def condensed_model(
     examined, K : the model, and its stiffness with those of foundations
     candidates, backend, settings, clock : as of `Prepared`
     known : the bodies factorised with these candidates, where they were
+    increments : that a factor serves, see `Prepared`
     """
     interface = examined.interface
     data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
     yields = examined.model.yields
     bent, condensed, plans = 0.0, known, Plans() if yields else None
-    reduced = None
+    reduced, way = None, CONDENSED
     solver: CondensedSolver | MultiplierSolver
     with clock.phase("assembly"):
         if backend == PETSC:
@@ -360,10 +367,12 @@ def condensed_model(
     if reduced is not None and condensed is None:
         with clock.phase("assembly"):
             bodies = free_bodies(examined, reduced)
-            whole = iterates(bodies, interface, candidates=candidates, backend=backend, yields=yields)
-            if whole:
-                solver = make_multipliers(examined, reduced, bodies.B, candidates, settings)
-        if not whole:
+            way = way_through(
+                bodies, interface, candidates=candidates, backend=backend, yields=yields, increments=increments
+            )
+            if way.worth:
+                solver = replace(make_multipliers(examined, reduced, bodies.B, candidates, settings), most=way.most)
+        if not way.worth:
             condensed = condense_bodies(examined, bodies, candidates, backend, clock, plans)
     if condensed is not None:
         bent = softness(examined, condensed)
@@ -386,4 +395,6 @@ def condensed_model(
         softness=bent,
         plans=plans,
         reduced=reduced if yields else None,
+        increments=increments if 0.0 < way.worth < np.inf else np.inf,
+        worth=way.worth,
     )

@@ -75,7 +75,8 @@ def solve(
     after_step : is given what is finished after every step but the last, to keep it
     tape : takes what is followed, for derivatives
     """
-    prepared = prepare(model, start=start, backend=backend, settings=settings, clock=clock)
+    saves = tape is None and not wellposed  # which ask for the condensed interface
+    prepared = prepare(model, start=start, backend=backend, settings=settings, clock=clock, saves=saves)
     return solve_prepared(
         prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed, after_step=after_step, tape=tape
     )
@@ -214,13 +215,15 @@ def _follow(
                         followed, cycle_ends = _from(end, constraints, now, stage, tape is not None)
                     break
                 except SolveFailed:
-                    if not prepared.limited:
+                    if not (prepared.limited or prepared.spared):
                         raise
-                    why = "once more, with the pairs that seemed too far apart"
+                    far = "once more, with the pairs that seemed too far apart"
+                    why = far if prepared.limited else "once more, on the condensed interface"
                     with prepared.clock.again(why):
                         prepared = prepared.widened()
             result = step_result(now, stage, followed, cycle_ends)
-            after = Checkpoint.of(model, interface, followed.after, stage.standing, loading, prepared.candidates)
+            so_far = followed.after, stage.standing, loading, prepared.candidates, prepared.increments
+            after = Checkpoint.of(model, interface, *so_far)
             if tape is not None:
                 tape.take(followed.legs, followed.after, stage.name)
             # at once, whenever an interruption comes

@@ -6,6 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+import numpy as np
+
 from signorini.arrays import Array, BoolArray
 from signorini.iterative.springs import PairSprings
 from signorini.law.bound import Bound
@@ -24,6 +26,7 @@ class IncrementLoad:
     floating : whether contact alone holds a body
     tolerance : of the sizes of the data: equilibrium, gaps that should be closed, forces that should have settled
     rounds : most of them
+    most : conjugate gradients that they may take in all
     """
 
     f: Array
@@ -34,6 +37,7 @@ class IncrementLoad:
     floating: bool
     tolerance: float
     rounds: int
+    most: float = np.inf
 
 
 class PressedBodies(Protocol):

@@ -57,6 +57,8 @@ def solve_iteratively(
         as_good_as_it_gets = worst <= bodies.aim or worst > _STILL_FALLS * best[-2]
         if (worst <= load.tolerance and as_good_as_it_gets) or not np.isfinite(worst):
             break
+        if sum(rounds.iterations) > load.most:
+            break
         if len(best) > bodies.patience and best[-1] > 0.5 * best[-1 - bodies.patience]:
             break
     return rounds.answer(worst)

@@ -74,7 +74,9 @@ def newton_on_all(rounds: MultiplierRounds) -> None:
             rounds.take(rounds.z, pairs.forces)
             return
         best.append(min(best[-1], pairs.residual))
-        if not np.isfinite(pairs.residual) or (len(best) > _PATIENCE and best[-1] >= best[-_PATIENCE]):
+        if not np.isfinite(pairs.residual) or sum(rounds.iterations) > load.most:
+            break
+        if len(best) > _PATIENCE and best[-1] >= best[-_PATIENCE]:
             break
         needed = 0.3 * _NEWTON_AIM * load.tolerance / pairs.residual
         if not _step(rounds, pairs, _WHILE_STATES_CHANGE if changed else max(_SETTLED, needed)):

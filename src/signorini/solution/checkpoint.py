@@ -69,6 +69,7 @@ class Checkpoint(Short):
         :class:`signorini.interface.interface.Interface`
     mesh : digest of points and cells
     yields : bodies that yield, by name, with their laws
+    increments : solved so far on bodies that are iterated on because that is cheaper; infinite where none are
     """
 
     state: State
@@ -81,10 +82,17 @@ class Checkpoint(Short):
     posed: Mapping[str, NDArray[Any]]
     mesh: str
     yields: Mapping[str, Plastic] = field(default_factory=dict)
+    increments: float = np.inf
 
     @staticmethod
     def of(
-        model: Model, interface: Interface, state: State, standing: Standing, loading: Loading, near: BoolArray
+        model: Model,
+        interface: Interface,
+        state: State,
+        standing: Standing,
+        loading: Loading,
+        near: BoolArray,
+        increments: float = np.inf,
     ) -> Checkpoint:
         """Of a state on the interface of a model.
 
@@ -93,6 +101,7 @@ class Checkpoint(Short):
         model, interface, state : the model, its n pairs and where they stand
         standing, loading : what steps have set, and the most that was imposed so far
         near : (n,) pairs that could touch so far
+        increments : see `Checkpoint`
         """
         return Checkpoint(
             state=state,
@@ -105,6 +114,7 @@ class Checkpoint(Short):
             posed=_posed(interface),
             mesh=digest(model.mesh),
             yields=_yields(model),
+            increments=increments,
         )
 
     def check(self, model: Model, interface: Interface) -> None:

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the two ways through contact in space cost: condensed by a factorisation, or iterated on the bodies as they are.
+
+Both are counted in operations of a factorisation. A product with the stiffness of the bodies reads memory and computes
+little, so that an entry of it counts as many; what an iteration takes beside its product is counted in products.
+Constants are fits to what both ways take (`python -m benchmarks.ways`).
+
+The choice is a matter of the past alone: increments so far and those of the step at hand. So a history that is cut and
+goes on takes the same way, and one that goes on for long in short steps pays at most twice.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from signorini.engine.examine import Examined
+from signorini.model.stage import Stage
+from signorini.solution.checkpoint import Checkpoint
+
+# fits to what benchmarks/ways.py measures, 12 000 to 300 000 unknowns; products with K are those of one thread
+_ENTRY = 25.0  # operations of a factorisation in the time of an entry of K in a product: 10 to 30, by the machine
+_FRONTS = 360.0  # products with K in the time of what a factorisation does beside them: order, plan, gathering fronts
+_START = 5e9  # operations: what iterating takes whatever there is
+_GRIDS = 220.0  # products with K in the time of making the coarse grids
+_CYCLE = 5.6  # products with K in the time of an iteration, a cycle of multigrid included
+_FIRST, _EACH = 18.0, 20.0  # iterations at the beginning, and of every increment: the first one takes 27 to 54
+_DENSE = 0.55  # operations of what is made of the compliance of the pairs, of its rows cubed
+_LAW_ROWS = 700.0  # operations of Newton's method an increment, of the rows of the pairs squared
+_LAW = 14.0  # products with K in the time of an increment for its displacements and certificate
+_ENDLESS = 1e6  # increments, where none of them costs more iterated than condensed
+
+
+class Condensing(NamedTuple):
+    """What condensing takes.
+
+    Attributes
+    ----------
+    bytes : at the worst time
+    operations : multiplications and additions of the factorisation
+    rows : of the pairs, all directions
+    """
+
+    bytes: float
+    operations: float
+    rows: int
+
+
+class Way(NamedTuple):
+    """How contact is solved.
+
+    Attributes
+    ----------
+    worth : increments from which bodies are condensed: 0 always, infinite where they are iterated on whatever they are
+    most : conjugate gradients of an increment after which they are condensed after all
+    """
+
+    worth: float
+    most: float = np.inf
+
+
+CONDENSED, ITERATED = Way(0.0), Way(np.inf)
+
+
+def iterating_work(entries: int, increments: float) -> float:
+    """Operations of a factorisation in the time of which contact is iterated on.
+
+    Parameters
+    ----------
+    entries : of the stiffness
+    increments : how many
+    """
+    return _START + entries * _ENTRY * (_GRIDS + _CYCLE * (_FIRST + _EACH * increments))
+
+
+def condensing_work(condensing: Condensing, entries: int) -> float:
+    """Operations in the time of condensing, before the law is asked.
+
+    Parameters
+    ----------
+    condensing : what it takes
+    entries : of the stiffness
+    """
+    return condensing.operations + _FRONTS * entries * _ENTRY + _DENSE * condensing.rows**3.0
+
+
+def cheaper_way(condensing: Condensing, entries: int, increments: float) -> Way:
+    """The way that is cheaper for some increments.
+
+    Parameters
+    ----------
+    condensing : what it takes
+    entries : of the stiffness
+    increments : in which contact is solved
+
+    Examples
+    --------
+    Two cubes of 101 400 unknowns with 676 pairs, and of a tenth; one increment, and many:
+
+    >>> large, small = Condensing(2e9, 1.8e11, 2028), Condensing(1e8, 2e9, 507)
+    >>> [round(cheaper_way(large, 7_800_000, number).worth) for number in (1, 100)]
+    [12, 0]
+    >>> cheaper_way(small, 820_000, 1).worth
+    0.0
+    """
+    own = condensing_work(condensing, entries)
+    each = _LAW * entries * _ENTRY + _LAW_ROWS * condensing.rows**2.0
+    first = iterating_work(entries, 0.0)
+    more = iterating_work(entries, 1.0) - first - each
+    worth = (own - first) / more if more > 0.0 else _ENDLESS
+    return Way(worth, own / (entries * _ENTRY * _CYCLE)) if increments < worth else CONDENSED
+
+
+def increments_of(stage: Stage, examined: Examined) -> float:
+    """Increments of a step, infinite where it is followed to events or in as many as it takes, or bodies float in it.
+
+    Parameters
+    ----------
+    stage, examined : the step, and the model under its supports
+    """
+    step, interface = stage.step, examined.interface
+    chosen = step.increments is not None or step.path is not None
+    rubs = bool(interface.friction.bounded.any()) or bool(stage.friction) or interface.remembers
+    to_events = step.path == "exact" or step.at == "events" or (rubs and not chosen)
+    if to_events or step.increments == "auto" or examined.floating.shape[1]:
+        return np.inf
+    return float(int(step.increments or 1) * len(stage.ends))
+
+
+def increments_before(examined: Examined, start: Checkpoint | None, backend: str) -> float:
+    """Increments so far that bodies were iterated on because that is cheaper; infinite where they are condensed.
+
+    Sides that wear or slide far are followed on the condensed interface, and what yields is factorised anew.
+
+    Parameters
+    ----------
+    examined, start, backend : the model, what it goes on from, and what was asked for
+    """
+    model, interface = examined.model, examined.interface
+    if backend != "auto" or examined.space.dimension == 2:
+        return np.inf
+    if model.slides or model.wears or model.yields or examined.has_laws or interface.cohesion is not None:
+        return np.inf
+    if interface.facets.any() or (interface.anisotropy != 1.0).any() or not interface.friction.straight:
+        return np.inf
+    return 0.0 if start is None else start.increments
