@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from signorini import lcp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.friction.history.plane.edge_strides import EdgeStrides
+from signorini.friction.history.plane.joined_pairs import WIDTH, joined, may_be_joined
 from signorini.friction.history.plane.rate_law import CORNER, RATE, RateLaw
 from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
@@ -37,6 +39,8 @@ KINKS = 4
 
 _SETTLES = 3  # steps of Newton's method after which edges may creep; most settle before
 
+_MANY = 200  # pairs from which states are sought on runs of pairs first: fewer settle in as many steps
+
 NEWTON_STEPS = 200
 """Of one run from a guess of the states; where it does not settle Lemke's method follows."""
 
@@ -54,7 +58,7 @@ def find_rates(
     state : (n,) states so far, which pairs that cannot change keep
     guesses : states to start Newton's method from, in order
     """
-    for guess in guesses:
+    for guess in [*_far_seen(responses, law, load), *guesses]:
         found = _newton(responses, law, load, guess)
         if found is not None:
             return found
@@ -70,6 +74,28 @@ def find_rates(
         endings.append(ending)
     ending = max(endings, key=lambda words: (words.endswith(RAY), len(words)))
     return _enumerate(responses, law, load, state, ending)
+
+
+def _far_seen(responses: Responses, law: RateLaw, load: Array) -> Iterator[IntArray]:
+    """States of many pairs that may all change at once: those of runs of them, found in the same way.
+
+    So edges of long zones are a few pairs from where they will be, and no step of Newton's method has to move them far.
+    """
+    n, problem = len(law.kind), responses.problem
+    if n < _MANY or (law.kind != CORNER).any() or (law.forced != UNDECIDED).any() or not may_be_joined(problem):
+        return
+    first = np.arange(0, n, WIDTH)
+    few = joined(replace(problem, b=load), first)
+    if few is None:
+        return
+    bound, open_ = few.pieces, np.zeros(len(first), dtype=np.bool_)
+    own = RateLaw(bound=bound, forced=law.forced[first], kind=law.kind[first], kink=open_)
+    small = Responses(few)
+    for guess in (*_far_seen(small, own, few.b), np.full(len(first), STICK)):
+        found = _newton(small, own, few.b, guess)
+        if found is not None:
+            yield np.repeat(found.state, np.diff(first, append=n))
+            return
 
 
 def _newton(responses: Responses, law: RateLaw, load: Array, guess: IntArray) -> Rates | None:
