@@ -27,6 +27,8 @@ from signorini.model.model import Model
 
 # measured on cubes of 13 000 to 1 000 000 unknowns and cylinders in the plane (benchmarks/memory.py), the least of each
 _ASSEMBLY = 20.0  # bytes an entry of K
+_LEAST_IN_SPACE = 70.0  # bytes an entry of K in space, all in all: iterating, which takes less than any factor
+_BORDER = 24.0  # bytes an entry of K: K with a border of the pairs, its graph and order, beside the factor
 _ITERATION = 44.0  # bytes an entry of K more, for its blocks, the coarse grids and vectors
 _TANGENTS = (
     90.0  # bytes an entry of K more where bodies yield, for patterns of tangents, gradients and states of points
@@ -40,11 +42,12 @@ _SHARED_ELSE = 0.39
 _GENEROUS = 300.0, 1.0, 60.0, 4.0 / 3.0  # entries of the factor: at most 300 z in the plane, 60 z^(4/3) in space
 _GENEROUS_WORK = 40.0  # operations of a factorisation in space: at most 40 z^2
 _SQUARE = 4, 6  # dense matrices of the size of the contact dofs, and of that of the pairs' rows, held at once
+_WAYS_OUT = "a coarser mesh, more memory, or the ranks of more machines (back end 'petsc')"
 _SHARE = 0.5  # of the memory that there is: what displacements that are asked for may fill
 
 
 def refuse_unassembled(model: Model) -> None:
-    """Refuse a model whose stiffness alone does not fit.
+    """Refuse a model that fits in no way, before anything is assembled: of the plane one whose stiffness does not.
 
     Raises
     ------
@@ -55,12 +58,13 @@ def refuse_unassembled(model: Model) -> None:
         _SHARED.get(family, _SHARED_ELSE) * cells.shape[0] * (cells.shape[1] * model.components) ** 2
         for family, cells in model.mesh.cells.items()
     )
-    asked, room = _ASSEMBLY * entries, available_memory()
+    each, what = (_LEAST_IN_SPACE, "a solve") if model.dimension == 3 else (_ASSEMBLY, "the stiffness")
+    asked, room = each * entries, available_memory()
     if asked > room:
         unknowns = model.number_of_dofs
         raise InputError(
-            f"the stiffness of {unknowns} unknowns takes at least {_size(asked)}, and {_size(room)} of memory are "
-            "free; expected a coarser mesh, or more memory"
+            f"{what} of {unknowns} unknowns takes at least {_size(asked)}, and {_size(room)} of memory are free; "
+            f"expected {_WAYS_OUT}"
         )
 
 
@@ -105,7 +109,7 @@ def way_through(
         ways = f"back end '{ITERATIVE}', " if iterated <= room else ""
     raise InputError(
         f"{K.shape[0]} unknowns with {len(interface)} contact pairs take about {needs}, and {_size(room)} of memory "
-        f"are free; expected {ways}a coarser mesh, or more memory"
+        f"are free; expected {ways}{_WAYS_OUT}"
     )
 
 
@@ -125,15 +129,15 @@ def condensing(
     chosen = interface.rows(candidates | interface.tied)
     dofs = np.unique(np.concatenate([B[np.flatnonzero(chosen)].indices, bodies.kept]))
     rows = int(np.count_nonzero(chosen))
-    dense = _SQUARE[1] * rows**2
+    dense, border = _SQUARE[1] * rows**2, _BORDER * K.nnz
     if interface.directions == 2 or interface.tied.any() or not takes_borders("auto"):
-        dense += _SQUARE[0] * len(dofs) ** 2  # where contact nodes are kept; else nothing is dense but pairs
+        dense, border = dense + _SQUARE[0] * len(dofs) ** 2, 0.0  # contact nodes are kept; else pairs, in a border
     factor, power = _GENEROUS[:2] if interface.directions == 2 else _GENEROUS[2:]
-    bound = Condensing(8.0 * (factor * K.shape[0] ** power + dense), _GENEROUS_WORK * K.shape[0] ** 2.0, rows)
+    bound = Condensing(8.0 * (factor * K.shape[0] ** power + dense) + border, _GENEROUS_WORK * K.shape[0] ** 2.0, rows)
     if bound.bytes <= plenty and condensing_work(bound, K.nnz) <= dear:
         return bound
     plan = analyse(checked_system(K, dofs, nodes, points))
-    return Condensing(plan.peak_bytes + 8.0 * dense, plan.flops, rows)
+    return Condensing(plan.peak_bytes + 8.0 * dense + border, plan.flops, rows)
 
 
 def _size(number: float) -> str:
