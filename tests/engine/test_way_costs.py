@@ -8,7 +8,7 @@ import pytest
 
 import signorini as sg
 from signorini.engine import memory_check
-from signorini.engine.way_costs import CONDENSED, Condensing, Way, cheaper_way
+from signorini.engine.way_costs import CONDENSED, Condensing, ContactWay, cheaper_way
 from signorini.gallery.cubes import cubes
 
 MEASURED = [
@@ -71,7 +71,7 @@ def spared(monkeypatch):
 
     def chosen(_, __, increments):
         asked.append(increments)
-        return Way(3.0) if increments < 3.0 else CONDENSED
+        return ContactWay(3.0) if increments < 3.0 else CONDENSED
 
     monkeypatch.setattr(memory_check, "cheaper_way", chosen)
     return asked
@@ -127,7 +127,7 @@ def test_what_is_solved_many_times_or_differentiated_is_condensed():
 
 def test_what_iterations_do_not_settle_is_condensed_after_all(monkeypatch):
     """A budget of no iterations: nothing is lost but the time."""
-    monkeypatch.setattr(memory_check, "cheaper_way", lambda *_: Way(3.0, 0.0))
+    monkeypatch.setattr(memory_check, "cheaper_way", lambda *_: ContactWay(3.0, 0.0))
     model = pressed(2)
     found = sg.solve(model)
     assert (found.backend, found.end.increments) == ("multifrontal", np.inf)

@@ -10,7 +10,7 @@ from signorini.engine.way_costs import (
     CONDENSED,
     ITERATED,
     Condensing,
-    Way,
+    ContactWay,
     cheaper_way,
     condensing_work,
     iterating_work,
@@ -70,7 +70,7 @@ def refuse_unassembled(model: Model) -> None:
 
 def way_through(
     bodies: FreeBodies, interface: Interface, *, candidates: BoolArray, backend: str, yields: bool, increments: float
-) -> Way:
+) -> ContactWay:
     """How contact is solved: condensed, or on the bodies as they are where that is asked for, cheaper or all that fits.
 
     Parameters

@@ -139,7 +139,8 @@ class Prepared(Examined, DiscreteModel):
         if self.spared:
             now = replace(now, increments=self.increments + increments_of(stage, now))
             stays = stays and now.increments < self.worth
-        found = candidate_pairs(now, loading, self.candidates)
+        known = stays and bool(self.candidates.all())
+        found = self.candidates if known else candidate_pairs(now, loading, self.candidates)
         if stays and found is self.candidates:
             return now, loading
         return now._made_again(found), loading
@@ -162,9 +163,8 @@ class Prepared(Examined, DiscreteModel):
         posed = replace(self, constraints=replace(self.constraints, prescribed=self.posed))
         key = self.released, candidates.tobytes()
         known = self.kept.get(key) if self.kept else None
-        made = condensed_model(
-            posed, self.K, candidates, self.backend, self.settings, self.clock, known, self.increments
-        )
+        asked = self.backend, self.settings, self.clock, known, self.increments
+        made = condensed_model(posed, self.K, candidates, *asked)
         if known is None and self.kept is not None and made.solver.condensed is not None:
             if len(self.kept) >= _KEPT:
                 self.kept.pop(next(iter(self.kept)))

@@ -47,7 +47,7 @@ class Condensing(NamedTuple):
     rows: int
 
 
-class Way(NamedTuple):
+class ContactWay(NamedTuple):
     """How contact is solved.
 
     Attributes
@@ -60,7 +60,7 @@ class Way(NamedTuple):
     most: float = np.inf
 
 
-CONDENSED, ITERATED = Way(0.0), Way(np.inf)
+CONDENSED, ITERATED = ContactWay(0.0), ContactWay(np.inf)
 
 
 def iterating_work(entries: int, increments: float) -> float:
@@ -85,7 +85,7 @@ def condensing_work(condensing: Condensing, entries: int) -> float:
     return condensing.operations + _FRONTS * entries * _ENTRY + _DENSE * condensing.rows**3.0
 
 
-def cheaper_way(condensing: Condensing, entries: int, increments: float) -> Way:
+def cheaper_way(condensing: Condensing, entries: int, increments: float) -> ContactWay:
     """The way that is cheaper for some increments.
 
     Parameters
@@ -109,7 +109,7 @@ def cheaper_way(condensing: Condensing, entries: int, increments: float) -> Way:
     first = iterating_work(entries, 0.0)
     more = iterating_work(entries, 1.0) - first - each
     worth = (own - first) / more if more > 0.0 else _ENDLESS
-    return Way(worth, own / (entries * _ENTRY * _CYCLE)) if increments < worth else CONDENSED
+    return ContactWay(worth, own / (entries * _ENTRY * _CYCLE)) if increments < worth else CONDENSED
 
 
 def increments_of(stage: Stage, examined: Examined) -> float:

@@ -22,7 +22,9 @@ def dragged(pairs: int) -> sg.Solution:
 
 @pytest.mark.slow
 def test_creeping_edges_are_moved_on(monkeypatch):
-    monkeypatch.setattr(find_rates, "_MANY", 10**9)  # no start from runs of pairs, which leaves edges near their ends
+    monkeypatch.setattr(
+        find_rates, "_JOINED_FROM", 10**9
+    )  # no start from runs of pairs, which leaves edges near their ends
     ahead = dragged(500)
     monkeypatch.setattr(find_rates, "_SETTLES", find_rates.NEWTON_STEPS)
     crept = dragged(500)

@@ -27,7 +27,7 @@ def pressed(*, floats: bool, pairs: int = 330) -> sg.Model:
 @pytest.mark.parametrize("floats", [False, True], ids=["held", "held by contact alone"])
 def test_states_are_those_without_them_in_fewer_systems(monkeypatch, floats):
     one = sg.solve(pressed(floats=floats)).last
-    monkeypatch.setattr(find_rates, "_MANY", 10**9)
+    monkeypatch.setattr(find_rates, "_JOINED_FROM", 10**9)
     other = sg.solve(pressed(floats=floats)).last
     (here,), (there,) = one.contacts, other.contacts
     assert len({*here.status.tolist()}) > 1

@@ -39,7 +39,7 @@ KINKS = 4
 
 _SETTLES = 3  # steps of Newton's method after which edges may creep; most settle before
 
-_MANY = 200  # pairs from which states are sought on runs of pairs first: fewer settle in as many steps
+_JOINED_FROM = 200  # pairs from which states are sought on runs of pairs first: fewer settle in as many steps
 
 NEWTON_STEPS = 200
 """Of one run from a guess of the states; where it does not settle Lemke's method follows."""
@@ -82,7 +82,7 @@ def _far_seen(responses: Responses, law: RateLaw, load: Array) -> Iterator[IntAr
     So edges of long zones are a few pairs from where they will be, and no step of Newton's method has to move them far.
     """
     n, problem = len(law.kind), responses.problem
-    if n < _MANY or (law.kind != CORNER).any() or (law.forced != UNDECIDED).any() or not may_be_joined(problem):
+    if n < _JOINED_FROM or (law.kind != CORNER).any() or (law.forced != UNDECIDED).any() or not may_be_joined(problem):
         return
     first = np.arange(0, n, WIDTH)
     few = joined(replace(problem, b=load), first)
