@@ -8,7 +8,6 @@ from functools import cache, partial
 from multiprocessing import parent_process
 from pathlib import Path
 
-from signorini.accuracy.refine import accurate, refuse_one_mesh
 from signorini.clock import Clock
 from signorini.derivative.differentiable import tape_of
 from signorini.engine.solve import raise_failure
@@ -79,7 +78,6 @@ def solve(
     array([3., 3., 3.])
     """
     tell_first_solve()
-    refuse_one_mesh(accuracy, start=start is not None, tape=tape)
     kept = tape_of(start) if tape else None
     follow = partial(
         solve_history,
@@ -91,8 +89,12 @@ def solve(
         clock=clock,
         tape=kept,
     )
-    history = follow(model) if accuracy is None else accurate(model, accuracy, follow)
-    return dressed(history, raise_on_failure, kept)
+    if accuracy is None:
+        return dressed(follow(model), raise_on_failure, kept)
+    from signorini.accuracy.refine import accurate, refuse_one_mesh  # not before an accuracy is asked for
+
+    refuse_one_mesh(accuracy, start=start is not None, tape=tape)
+    return dressed(accurate(model, accuracy, follow), raise_on_failure, kept)
 
 
 @cache

@@ -41,8 +41,10 @@ def test_loops_are_compiled_for_those_types_in_their_order(monkeypatch):
     assert order == [("a", (typeof(1),)), ("b", (typeof(1.0), typeof(2)))]
 
 
-@pytest.mark.parametrize("cores", [1, 2])
-def test_another_process_ends_with_the_run_and_is_not_begun_on_one_core(cores, monkeypatch):
+@pytest.mark.parametrize(("cores", "compiled", "processes"), [(1, False, 0), (2, False, 1), (2, True, 0)])
+def test_another_process_ends_with_the_run_and_is_begun_where_it_has_a_core_and_work(
+    cores, compiled, processes, monkeypatch
+):
     begun = []
 
     def begin(command, **options):
@@ -53,9 +55,10 @@ def test_another_process_ends_with_the_run_and_is_not_begun_on_one_core(cores, m
     really = subprocess.Popen
     monkeypatch.setattr(subprocess, "Popen", begin)
     monkeypatch.setattr(os, "cpu_count", lambda: cores)
+    monkeypatch.setattr(first_run, "compiled", lambda: compiled)
     with pytest.raises(ZeroDivisionError), first_run.helped():
         raise ZeroDivisionError
-    assert len(begun) == cores - 1
+    assert len(begun) == processes
     assert all(process.returncode not in (None, 0) for process in begun)
 
 

@@ -19,12 +19,12 @@ import numpy as np
 from numba import typeof
 
 from signorini.compilation import compile_aside
-from signorini.condense import kept
-from signorini.condense.body_blocks import mirror
+from signorini.condense._kernels import block_on, felt_stiffness, mirror
 from signorini.fem import _kernels
 from signorini.linalg import _front_solves, _fronts, _symbolic
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination, Graph, Rows, both_ways, quotient, subgraph
+from signorini.linalg.multifrontal import compiled
 from signorini.linalg.plan import RELAX, Fronts
 
 
@@ -43,8 +43,8 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
     laws = _kernels.Laws(np.zeros((1, 3), np.uint32), square, real, 2)
     pattern = _kernels.SparsityPattern(large, small, real)
     return [
-        (kept._felt, (small, small, real, small, small, real, 1)),
-        (kept._block, (small, small, real, large, large)),
+        (felt_stiffness, (small, small, real, small, small, real, 1)),
+        (block_on, (small, small, real, large, large)),
         (mirror, (square,)),
         (mirror, (np.zeros((2, 2), order="F"),)),
         (_fronts.add_interface, (rows, elimination, small, square)),
@@ -76,8 +76,8 @@ def compile_loops() -> None:
 
 @contextmanager
 def helped() -> Iterator[None]:
-    """Have another process compile while the block runs, if there is a core for it."""
-    if not sys.executable or (os.cpu_count() or 1) < 2:
+    """Have another process compile while the block runs, if anything is left to compile, and there is a core for it."""
+    if compiled() or not sys.executable or (os.cpu_count() or 1) < 2:
         yield
         return
     quiet = subprocess.DEVNULL

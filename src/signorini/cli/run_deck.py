@@ -10,13 +10,11 @@ import textwrap
 import time
 from collections import Counter
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from signorini.accuracy.refine import accurate, refuse_one_mesh
 from signorini.checks import number
 from signorini.cli.progress import progress
 from signorini.clock import Clock
@@ -64,11 +62,10 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
         raise InputError(one_of(options.backend, known, "back end"), where=("--backend",))
     start = _start(options.start)
     path = Path(options.folder) if options.folder else Path("out", deck.path.stem)
-    first = not compiled()
-    note = FIRST_SOLVE if first else ""
+    note = "" if compiled() else FIRST_SOLVE
     with own_folder(path, deck.path.name) as folder:
         quiet = options.quiet or options.json
-        with _help(first), progress(quiet=quiet, seconds=clock.seconds, note=note, log=log) as clock:
+        with progress(quiet=quiet, seconds=clock.seconds, note=note, log=log) as clock:
             publisher = Publisher(
                 folder=folder,
                 clock=clock,
@@ -81,15 +78,6 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
             files = publisher.publish(history)
             clock.says(f"{history.status}: {history.message}" if history.message else str(history.status))
         return _told(deck, options, history, files, folder, started)
-
-
-def _help(first: bool) -> AbstractContextManager[None]:
-    """Another process that compiles beside the first run, which later ones do without."""
-    if not first:
-        return nullcontext()
-    from signorini.cli.first_run import helped
-
-    return helped()
 
 
 def _kept(publisher: Publisher) -> Callable[[History], None]:
@@ -179,7 +167,6 @@ def _solve(
 ) -> History:
     """The history, finished or not; what is wrong with the deck is told with its line."""
     accuracy = _accuracy(deck, options.accuracy)
-    refuse_one_mesh(accuracy, **{"--from": start is not None})
     follow = partial(
         solve,
         start=start,
@@ -192,6 +179,9 @@ def _solve(
     try:
         if accuracy is None:
             return follow(deck.model, after_step=after_step)
+        from signorini.accuracy.refine import accurate, refuse_one_mesh  # not before an accuracy is asked for
+
+        refuse_one_mesh(accuracy, **{"--from": start is not None})
         return accurate(deck.model, accuracy, follow)
     except InputError as error:
         raise deck.locate(error) from error

@@ -9,7 +9,8 @@ import numpy as np
 import scipy.linalg
 
 from signorini.arrays import Array
-from signorini.condense.body_blocks import DEPENDENT, mirror
+from signorini.condense._kernels import mirror
+from signorini.condense.body_blocks import DEPENDENT
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

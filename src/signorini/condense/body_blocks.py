@@ -17,10 +17,9 @@ import scipy.sparse as sp
 from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
-from signorini.compilation import kernel
+from signorini.condense._kernels import mirror
 
 DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
-_TILE = 64  # rows and columns mirrored at a time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -170,13 +169,3 @@ def inverse_of(cholesky: Array, *, overwrite: bool = False) -> Array:
     inverse, _ = lapack.dpotri(cholesky, lower=1, overwrite_c=overwrite)
     mirror(inverse)
     return np.asarray(inverse, dtype=np.float64)
-
-
-@kernel()
-def mirror(matrix: Array) -> None:
-    """Overwrite the upper triangle by the lower, in tiles that fit the cache."""
-    for low in range(0, len(matrix), _TILE):
-        for first in range(low, len(matrix), _TILE):
-            for i in range(first, min(first + _TILE, len(matrix))):
-                for j in range(low, min(low + _TILE, i)):
-                    matrix[j, i] = matrix[i, j]

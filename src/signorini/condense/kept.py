@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, Int32Array, IntArray
-from signorini.compilation import kernel
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.condense._kernels import block_on, felt_stiffness
 from signorini.condense.ties import Ties, make_ties
 from signorini.interface.active import FreeBodies, active_pairs, with_supple
 from signorini.interface.interface import Interface
@@ -60,7 +60,7 @@ class Kept:
         """(m, m) The stiffness between what is kept where all else is held, of one on the free displacements (z, z)."""
         place = np.full(K.shape[0], -1, np.int64)
         place[self.dofs] = np.arange(len(self.dofs))
-        data, indices, indptr = _block(K.indptr, K.indices, K.data, self.dofs, place)
+        data, indices, indptr = block_on(K.indptr, K.indices, K.data, self.dofs, place)
         return sp.csr_array((data, indices, indptr), shape=(len(self.dofs),) * 2)
 
 
@@ -80,7 +80,7 @@ def interface_stiffness(
     stiffness : of the size of the data, where both sides are rigid
     """
     begin, column = (places.astype(np.int32, copy=False) for places in (B_c.indptr, B_c.indices))  # one type of them
-    felt, gives = _felt(begin, column, B_c.data, K_c.indptr, K_c.indices, K_c.data, len(pairs))
+    felt, gives = felt_stiffness(begin, column, B_c.data, K_c.indptr, K_c.indices, K_c.data, len(pairs))
     felt = np.minimum(felt, np.divide(4.0, gives, out=np.full_like(gives, np.inf), where=gives > 0.0))
     felt = with_supple(felt, interface, pairs)
     felt[felt == 0.0] = stiffness  # both sides are rigid, and nothing gives way
@@ -90,49 +90,3 @@ def interface_stiffness(
         area = interface.area[pairs][own]
         result[own] = 0.5 * felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()
     return result
-
-
-@kernel()
-def _block(
-    begin: Int32Array, column: Int32Array, value: Array, dofs: IntArray, place: IntArray
-) -> tuple[Array, Int32Array, Int32Array]:
-    """Entries, columns and row ends of the block of a matrix on some unknowns; ``place``: where each is among them."""
-    indptr = np.zeros(len(dofs) + 1, np.int32)
-    for i in range(len(dofs)):
-        indptr[i + 1] = indptr[i]
-        for e in range(begin[dofs[i]], begin[dofs[i] + 1]):
-            indptr[i + 1] += place[column[e]] >= 0
-    data, indices, at = np.empty(indptr[-1]), np.empty(indptr[-1], np.int32), 0
-    for i in range(len(dofs)):
-        for e in range(begin[dofs[i]], begin[dofs[i] + 1]):
-            if place[column[e]] >= 0:
-                data[at], indices[at] = value[e], place[column[e]]
-                at += 1
-    return data, indices, indptr
-
-
-@kernel()
-def _felt(
-    B_begin: Int32Array,
-    B_column: Int32Array,
-    B_value: Array,
-    K_begin: Int32Array,
-    K_column: Int32Array,
-    K_value: Array,
-    count: int,
-) -> tuple[Array, Array]:
-    """Diagonal of ``B K B^T``, (count,), and of ``B diag(K)^-1 B^T``, where the diagonal is not 0; first rows alone."""
-    felt, gives, weight = np.zeros(count), np.zeros(count), np.zeros(len(K_begin) - 1)
-    for i in range(count):
-        own = range(B_begin[i], B_begin[i + 1])
-        for e in own:
-            weight[B_column[e]] += B_value[e]
-        for e in own:
-            p = B_column[e]
-            for k in range(K_begin[p], K_begin[p + 1]):
-                felt[i] += B_value[e] * K_value[k] * weight[K_column[k]]
-                if K_column[k] == p and K_value[k] > 0.0:
-                    gives[i] += B_value[e] ** 2 / K_value[k]
-        for e in own:
-            weight[B_column[e]] = 0.0
-    return felt, gives

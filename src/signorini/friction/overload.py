@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linprog
+import scipy
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import Spent
@@ -135,7 +135,7 @@ def unheld(
         edges.append(work_of(unit_edges(share)[:, may], rows[:, may]))
     for _ in range(MAX_ROUNDS):
         columns = np.concatenate(edges).T
-        answer = linprog(
+        answer = scipy.optimize.linprog(
             np.append(-1.0, np.zeros(columns.shape[1])),
             A_eq=np.column_stack([growth / unit, columns]),
             b_eq=-load / unit,

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linprog, nnls
+import scipy
 
 from signorini.arrays import Array
 from signorini.attempt import Spent
@@ -122,7 +122,7 @@ def unresisted(R: Array, cones: FrictionSection, load: Array) -> Array | Spent |
     edges = np.concatenate([work_of(unit_edges(share), rows) for share in starts])
     for _ in range(ROUNDS):
         try:
-            multipliers, _ = nnls(edges.T, -load, maxiter=EXCHANGES * len(edges))
+            multipliers, _ = scipy.optimize.nnls(edges.T, -load, maxiter=EXCHANGES * len(edges))
         except RuntimeError:
             return Spent(most=EXCHANGES * len(edges), of="exchanges of edges in a proof by a rigid motion")
         a: Array = load + edges.T @ multipliers
@@ -175,7 +175,7 @@ def _by_program(problem: ContactProblem, load: Array, bound: FrictionBound) -> A
             edge[np.arange(len(has)), has], edge[np.arange(len(has)), n + has] = -bound.slopes[j, has], sign
             edges.append(edge)
             room.append(bound.starts[j, has] / unit)
-    answer = linprog(
+    answer = scipy.optimize.linprog(
         np.concatenate([np.zeros(2 * n), np.ones(2 * k)]),
         A_ub=np.concatenate(edges),
         b_ub=np.concatenate(room),

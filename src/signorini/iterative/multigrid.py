@@ -10,9 +10,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import pyamg
 import scipy.sparse as sp
-from pyamg.util.utils import get_block_diag
 
 from signorini.arrays import Array, IntArray
 from signorini.linalg.vcycle import MultigridLevel, VCycle
@@ -100,6 +98,8 @@ class Multigrid:
     @cached_property
     def _levels(self) -> list[Any]:
         """Levels of the bodies alone, the finest first."""
+        import pyamg  # takes longer to load than most models to solve directly
+
         with _repeatable():
             made = pyamg.smoothed_aggregation_solver(
                 sp.bsr_matrix(self._K),
@@ -131,6 +131,8 @@ def _sprung(level: Any, moved: IntArray, pattern: sp.csr_array) -> tuple[SprungL
     moved : (d c,) unknowns of its own that contacts move, whole blocks
     pattern : (d c, d c) where springs may be between them
     """
+    from pyamg.util.utils import get_block_diag
+
     d = level.A.blocksize[0]
     nodes, whole = moved[::d] // d, level.A.sorted_indices()
     rows = _rows_of(whole, nodes)

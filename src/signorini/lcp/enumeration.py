@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 import scipy.linalg as la
 from numpy.typing import ArrayLike
-from scipy.optimize import linprog
 
 from signorini.arrays import Array, BoolArray, IntArray, frozen
 from signorini.errors import InputError
@@ -141,7 +141,7 @@ def _least_lack(A: Array, q: Array, support: BoolArray) -> float:
     """The least s with ``x >= -s`` on a support, ``|A x + q| <= s`` there and ``A x + q >= -s`` elsewhere."""
     columns, size = A[:, support], int(support.sum())
     upper = np.vstack([-columns, columns[support], -np.eye(size)])
-    found = linprog(
+    found = scipy.optimize.linprog(
         np.append(np.zeros(size), 1.0),
         A_ub=np.column_stack([upper, -np.ones(len(upper))]),
         b_ub=np.concatenate([q, -q[support], np.zeros(size)]),
@@ -230,7 +230,7 @@ def _singular_face(A: Array, q: Array, support: IntArray) -> Face | None:
     upper = np.vstack([np.hstack([-np.eye(size), np.ones((size, 1))]), np.pad(-outside, ((0, 0), (0, 1)))])
     bound = np.concatenate([np.zeros(size), q_outside])
     equal = np.pad(inside, ((0, 0), (0, 1)))
-    found = linprog(
+    found = scipy.optimize.linprog(
         cost, A_ub=upper, b_ub=bound, A_eq=equal, b_eq=-q[support], bounds=[(None, None)] * size + [(None, 1)]
     )
     if found.status != 0 or not found.x[-1] > 1e3 * ZERO_TOL:
@@ -241,7 +241,7 @@ def _singular_face(A: Array, q: Array, support: IntArray) -> Face | None:
         if row @ x + value > 1e-7:
             continue
         room = (0, 10 * (1 + np.abs(x).max()))
-        most = linprog(-row, A_ub=upper[:, :-1], b_ub=bound, A_eq=inside, b_eq=-q[support], bounds=room)
+        most = scipy.optimize.linprog(-row, A_ub=upper[:, :-1], b_ub=bound, A_eq=inside, b_eq=-q[support], bounds=room)
         if most.status == 0 and row @ most.x + value > 1e-7:
             points.append(most.x)
         else:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from scipy.optimize import linprog
+import scipy
 
 from signorini.arrays import Array
 from signorini.lcp.problem import LCP
@@ -49,7 +49,7 @@ class Feasibility:
         M = problem.dense()
         if M is None:
             return Attempt.refused("The entries of M are needed.")
-        found = linprog(problem.q, A_ub=M.T, b_ub=np.zeros(problem.n), bounds=(0.0, 1.0), method="highs")
+        found = scipy.optimize.linprog(problem.q, A_ub=M.T, b_ub=np.zeros(problem.n), bounds=(0.0, 1.0), method="highs")
         steps = int(getattr(found, "nit", 0))
         if found.status == 0:
             y = np.maximum(found.x, 0.0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import linprog
+import scipy
 
 from signorini.arrays import Array, IntArray
 from signorini.friction.problem import ContactProblem
@@ -110,7 +110,7 @@ def least_lacking(
     pivots : most of the linear program; t is NaN where they were not enough
     """
     size = len(low)
-    found = linprog(
+    found = scipy.optimize.linprog(
         np.append(np.zeros(size), 1.0),
         A_ub=np.column_stack([rows, -np.ones(len(rows))]),
         b_ub=right,

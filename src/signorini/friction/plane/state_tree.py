@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import linprog
+import scipy
 
 from signorini.arrays import Array, IntArray
 from signorini.friction.problem import ContactProblem
@@ -160,7 +160,7 @@ def _relaxed(program: _Program, node: IntArray) -> tuple[float, float, Array, Ar
     low, high = _bounds(program, node)
     rows, size = matrix.shape
     slack = np.eye(rows, 2 * n)
-    answer = linprog(
+    answer = scipy.optimize.linprog(
         np.concatenate([np.zeros(size), np.ones(4 * n)]),
         A_eq=np.concatenate([matrix, slack, -slack], axis=1),
         b_eq=program.rhs,
