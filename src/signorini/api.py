@@ -10,11 +10,11 @@ from pathlib import Path
 
 from signorini.clock import Clock
 from signorini.derivative.differentiable import tape_of
+from signorini.engine.first_run import FIRST_SOLVE, compiled
 from signorini.engine.solve import raise_failure
 from signorini.engine.solve import solve as solve_history
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
-from signorini.linalg.multifrontal import FIRST_SOLVE, compiled
 from signorini.model.accuracy import Asked
 from signorini.model.model import Model
 from signorini.output.checkpoint import read_checkpoint

@@ -5,13 +5,16 @@ from __future__ import annotations
 
 import gc
 import pickle
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import cached_property
 from typing import Any, TypeVar
 
+import numpy as np
 from numba import njit
 from numba.core import event
 from numba.core.caching import IndexDataCacheFile
+from numba.core.registry import CPUDispatcher
 
 from signorini.turn import Turn
 
@@ -68,6 +71,15 @@ class _Index(IndexDataCacheFile):
                 self.turn.end()
         return found
 
+    def has(self, key: Any) -> bool:
+        """Whether a compiled loop is on disk.
+
+        Parameters
+        ----------
+        key : Numba's
+        """
+        return super().load(key) is not None  # type: ignore[no-untyped-call]
+
     def save(self, key: Any, data: Any) -> None:
         """Leave a compiled loop on disk, for those that wait for it too.
 
@@ -100,13 +112,65 @@ def compile_aside(loop: Any, types: tuple[Any, ...]) -> None:
 def part(**options: Any) -> Callable[[_Loop], _Loop]:
     """Compile what kernels alone call, which hold a copy of it on disk: without any wrapper, otherwise as they are.
 
+    Where Python calls it, it interprets it.
+
     Parameters
     ----------
     options : further ones of Numba's
     """
     wrappers = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     decorate: Callable[[_Loop], _Loop] = njit(error_model="numpy", **wrappers, **options)  # type: ignore[call-overload]
-    return decorate
+
+    def interpreted_by_python(loop: _Loop) -> _Loop:
+        made: Any = decorate(loop)
+        if type(made) is CPUDispatcher:  # and not the loop itself, where Numba is switched off
+            made.__class__ = _Part
+        part: _Loop = made
+        return part
+
+    return interpreted_by_python
+
+
+class _Part(CPUDispatcher):
+    """What kernels alone call; Python, which has no way into the compiled one, interprets it."""
+
+    def __call__(self, *arguments: Any) -> Any:
+        return self.py_func(*arguments)
+
+
+class _Patient(CPUDispatcher):
+    """A kernel that Python interprets as long as it is not compiled, with the same numbers to the last bit."""
+
+    def __call__(self, *arguments: Any) -> Any:
+        types = tuple(self.typeof_pyval(argument) for argument in arguments)
+        if types in self.overloads or _on_disk(self, types):
+            return super().__call__(*arguments)
+        with np.errstate(all="ignore"):  # as compiled loops do
+            return self.py_func(*arguments)
+
+
+def _on_disk(loop: Any, types: tuple[Any, ...]) -> bool:
+    """Whether a kernel for arguments of some types can be had without compiling it."""
+    index = getattr(loop._cache, "_cache_file", None)
+    return isinstance(index, _Index) and index.has(loop._cache._index_key(types, loop.targetctx.codegen()))
+
+
+@contextmanager
+def interpreted(loops: Sequence[Any]) -> Iterator[None]:
+    """Have loops interpreted while the block runs and as long as nobody has compiled them.
+
+    Parameters
+    ----------
+    loops : kernels
+    """
+    waiting = [loop for loop in loops if type(loop) is CPUDispatcher]
+    for loop in waiting:
+        loop.__class__ = _Patient
+    try:
+        yield
+    finally:
+        for loop in waiting:
+            loop.__class__ = CPUDispatcher
 
 
 class _NoGarbage(event.Listener):

@@ -24,9 +24,9 @@ def run(options: argparse.Namespace) -> int:
         deck = _load(options)
     if deck.modes is not None and not deck.modes.preload:
         raise InputError(f"'{deck.path}' {_DRAWN}: use 'signorini modes'")
-    from signorini.cli.first_run import helped
+    from signorini.engine.first_run import helped
 
-    with helped():
+    with helped(deck.model):
         from signorini.cli.run_deck import run_deck
 
         return run_deck(deck, options, clock, started, log)
@@ -37,9 +37,9 @@ def modes(options: argparse.Namespace) -> int:
     started = time.perf_counter()
     log = open_log(options.log, f"signorini {__version__} modes {options.deck}")
     deck = _load(options)
-    from signorini.cli.first_run import helped
+    from signorini.engine.first_run import helped
 
-    with helped(), progress(quiet=options.quiet, log=log) as clock:
+    with helped(deck.model), progress(quiet=options.quiet, log=log) as clock:
         from signorini.cli.run_modes import run_modes
 
         return run_modes(deck, options, clock, started)
@@ -48,9 +48,9 @@ def modes(options: argparse.Namespace) -> int:
 def sensitivities(options: argparse.Namespace) -> int:
     """Read, solve, print the main answers by all that is given; 0 if that is known."""
     deck = _load(options)
-    from signorini.cli.first_run import helped
+    from signorini.engine.first_run import helped
 
-    with helped(), progress(quiet=options.json) as clock:
+    with helped(deck.model), progress(quiet=options.json) as clock:
         from signorini.cli.run_sensitivities import run_sensitivities
 
         return run_sensitivities(deck, options, clock)

@@ -16,8 +16,8 @@ from typing import NamedTuple
 import signorini
 from signorini._version import __version__
 from signorini.cores import number_of_threads, physical_cores
+from signorini.engine.first_run import compiled
 from signorini.errors import InputError
-from signorini.linalg.multifrontal import compiled
 from signorini.memory import available_memory
 from signorini.output.table import align
 

@@ -21,10 +21,10 @@ from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.deck.keys import check_keys
 from signorini.distributed.ranks import PETSC
+from signorini.engine.first_run import FIRST_SOLVE, compiles_first
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed, one_of
 from signorini.iterative.bodies import ITERATIVE
-from signorini.linalg.multifrontal import FIRST_SOLVE, compiled
 from signorini.linalg.registry import BACKENDS
 from signorini.linalg.threads import one_thread
 from signorini.model.accuracy import Accuracy, Asked
@@ -62,7 +62,7 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
         raise InputError(one_of(options.backend, known, "back end"), where=("--backend",))
     start = _start(options.start)
     path = Path(options.folder) if options.folder else Path("out", deck.path.stem)
-    note = "" if compiled() else FIRST_SOLVE
+    note = FIRST_SOLVE if compiles_first(deck.model) else ""
     with own_folder(path, deck.path.name) as folder:
         quiet = options.quiet or options.json
         with progress(quiet=quiet, seconds=clock.seconds, note=note, log=log) as clock:

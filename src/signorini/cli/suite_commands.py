@@ -39,10 +39,10 @@ def verify(options: argparse.Namespace) -> int:
     """Print every row as soon as it is computed; 0 only if every case passed."""
     file = _json_file(options.json)
     from signorini.cores import number_of_threads
-    from signorini.linalg.multifrontal import compiled
+    from signorini.engine.first_run import compiled
     from signorini.verify.suite import verification_rows
 
-    beside = None if compiled() else importlib.import_module("signorini.cli.first_run").compile_loops
+    beside = None if compiled() else importlib.import_module("signorini.engine.first_run").compile_loops
     processes = min(number_of_threads(), _PROCESSES)
     cases: list[Mapping[str, Any]] = []
     with progress_bar() as tell:

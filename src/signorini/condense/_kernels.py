@@ -74,7 +74,7 @@ def felt_stiffness(
             for k in range(K_begin[p], K_begin[p + 1]):
                 felt[i] += B_value[e] * K_value[k] * weight[K_column[k]]
                 if K_column[k] == p and K_value[k] > 0.0:
-                    gives[i] += B_value[e] ** 2 / K_value[k]
+                    gives[i] += B_value[e] * B_value[e] / K_value[k]
         for e in own:
             weight[B_column[e]] = 0.0
     return felt, gives

@@ -312,7 +312,7 @@ def _project(K: Array, divergence: Array, volume: Array, pressures: Array, bulk:
                 basis[q, k] -= share * basis[q, l]
         size = 0.0
         for q in range(len(volume)):
-            size += volume[q] * basis[q, k] ** 2
+            size += volume[q] * basis[q, k] * basis[q, k]
         for q in range(len(volume)):
             basis[q, k] /= np.sqrt(size)
         for i in range(n):

@@ -8,28 +8,39 @@ of its own. Matrices are stored by columns.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+import ctypes
+from typing import NamedTuple
 
 import llvmlite.binding  # type: ignore[import-untyped]
 import numpy as np
 from numba import types
-from numba.extending import get_cython_function_address
+from numba.extending import get_cython_function_address, models, register_model
 from numpy.typing import NDArray
 
 from signorini.arrays import Array, Int32Array
 from signorini.compilation import part
 
 
-def _external(module: str, name: str, arguments: int) -> Any:
-    symbol = f"signorini_{name}"
-    llvmlite.binding.add_symbol(symbol, get_cython_function_address(f"scipy.linalg.{module}", name))
-    return types.ExternalFunction(symbol, types.void(*[types.intp] * arguments))
+class _Routine(types.ExternalFunction):
+    """A routine of BLAS or LAPACK; loops that are interpreted call it through ctypes."""
+
+    def __init__(self, module: str, name: str, arguments: int) -> None:
+        symbol, address = f"signorini_{name}", get_cython_function_address(f"scipy.linalg.{module}", name)
+        llvmlite.binding.add_symbol(symbol, address)
+        super().__init__(symbol, types.void(*[types.intp] * arguments))
+        self._call = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * arguments)(address)
+
+    def __call__(self, *addresses: int) -> None:  # type: ignore[override]
+        self._call(*map(int, addresses))
 
 
-_dpotrf = _external("cython_lapack", "dpotrf", 5)
-_dtrsm = _external("cython_blas", "dtrsm", 11)
-_dsyrk = _external("cython_blas", "dsyrk", 10)
-_dgemm = _external("cython_blas", "dgemm", 13)
+register_model(_Routine)(models.OpaqueModel)  # as Numba's own external functions
+
+
+_dpotrf = _Routine("cython_lapack", "dpotrf", 5)
+_dtrsm = _Routine("cython_blas", "dtrsm", 11)
+_dsyrk = _Routine("cython_blas", "dsyrk", 10)
+_dgemm = _Routine("cython_blas", "dgemm", 13)
 
 
 class Scratch(NamedTuple):

@@ -89,5 +89,6 @@ def pivots(fronts: Fronts, factor: Array) -> Array:
     for t in range(len(fronts.parent)):
         a, k, r = sizes(fronts, t)
         for j in range(k):
-            pivot[a + j] = factor[fronts.panel[t] + j * (k + r + 1)] ** 2
+            root = factor[fronts.panel[t] + j * (k + r + 1)]
+            pivot[a + j] = root * root
     return pivot

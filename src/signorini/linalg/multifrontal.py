@@ -14,8 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -33,14 +31,6 @@ from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.shared_fronts import factorise_parts
 from signorini.linalg.system import System, as_columns, like
 from signorini.linalg.threads import one_thread
-
-FIRST_SOLVE = "first solve on this machine: compiling takes ten seconds, once"
-
-
-def compiled() -> bool:
-    """Whether compiled loops are on disk, where the first factorisation after an installation leaves them."""
-    loop: Any = _fronts.factorise_fronts
-    return any(Path(loop.stats.cache_path or ".").glob("_fronts.factorise_fronts-*.nbi"))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,13 +9,17 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from numba import njit, typeof
 from numba.extending import overload
 
 import signorini as sg
-from signorini.cli import first_run
+from signorini.cli.main import main
 from signorini.deck import load_deck
+from signorini.engine import first_run
+from signorini.linalg._fronts import sizes
+from signorini.linalg.plan import Fronts
 
 DECK = Path(__file__).parents[2] / "examples" / "zhu_cylinder_frictionless.toml"
 
@@ -41,25 +45,87 @@ def test_loops_are_compiled_for_those_types_in_their_order(monkeypatch):
     assert order == [("a", (typeof(1),)), ("b", (typeof(1.0), typeof(2)))]
 
 
-@pytest.mark.parametrize(("cores", "compiled", "processes"), [(1, False, 0), (2, False, 1), (2, True, 0)])
-def test_another_process_ends_with_the_run_and_is_begun_where_it_has_a_core_and_work(
-    cores, compiled, processes, monkeypatch
-):
+MODEL = load_deck(DECK).model
+
+
+@pytest.fixture
+def begun(monkeypatch):
+    """Processes that were begun beside runs where nothing is compiled; all have ended after the test."""
     begun = []
 
     def begin(command, **options):
-        assert command == [sys.executable, "-m", "signorini.cli.first_run"]
+        assert command == [sys.executable, "-m", "signorini.engine.first_run"]
         begun.append(really([sys.executable, "-c", "import time; time.sleep(60)"], **options))
         return begun[-1]
 
     really = subprocess.Popen
     monkeypatch.setattr(subprocess, "Popen", begin)
+    monkeypatch.setattr(first_run, "compiled", lambda: False)
+    yield begun
+    for process in begun:
+        process.kill()
+        process.wait()
+
+
+@pytest.mark.parametrize("cores", [1, 2])
+def test_another_process_ends_with_a_large_run_and_is_not_begun_on_one_core(cores, begun, monkeypatch):
     monkeypatch.setattr(os, "cpu_count", lambda: cores)
-    monkeypatch.setattr(first_run, "compiled", lambda: compiled)
-    with pytest.raises(ZeroDivisionError), first_run.helped():
+    monkeypatch.setattr(first_run, "INTERPRETED_NODES", 0)
+    with pytest.raises(ZeroDivisionError), first_run.helped(MODEL):
         raise ZeroDivisionError
-    assert len(begun) == processes
+    assert len(begun) == cores - 1
     assert all(process.returncode not in (None, 0) for process in begun)
+
+
+def test_another_process_goes_on_after_a_small_run(begun):
+    with first_run.helped(MODEL):
+        pass
+    assert [process.poll() for process in begun] == [None]
+
+
+def test_no_process_is_begun_where_all_is_compiled(begun, monkeypatch):
+    monkeypatch.setattr(first_run, "compiled", lambda: True)
+    with first_run.helped(MODEL):
+        pass
+    assert begun == []
+
+
+RUN = """
+import sys
+from numba.core import event
+from signorini.engine import first_run
+from signorini.cli.main import main
+from signorini.cli.main import main
+
+compiled = []
+
+class Listener(event.Listener):
+    def on_start(self, event):
+        compiled.append(event.data["dispatcher"].py_func.__name__)
+
+    def on_end(self, event):
+        pass
+
+first_run._begun = lambda: None
+event.register("numba:compile", Listener())
+code = main(sys.argv[1:])
+print(code, *compiled)
+"""
+
+
+@pytest.mark.slow
+def test_a_small_first_run_compiles_nothing_and_has_the_same_numbers_to_the_last_bit(tmp_path):
+    deck = str(DECK.with_name("hertz_two_bodies.toml"))
+    command = [sys.executable, "-c", RUN, "run", deck, "--quiet", "-o", str(tmp_path / "first")]
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "loops")}
+    assert subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout == "0\n"
+    assert main(["run", deck, "--quiet", "-o", str(tmp_path / "later")]) == 0
+    for name in ("contact.csv", "solution.vtu", "history.csv"):
+        assert (tmp_path / "first" / name).read_bytes() == (tmp_path / "later" / name).read_bytes()
+
+
+def test_python_interprets_parts_of_loops():
+    assert sizes(Fronts(*[np.array([0, 1])] * 8), 0) == (0, 1, 0)
 
 
 LOOP = """

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A second process beside the first run after an installation, which compiles what the run comes to last.
+"""A second process beside the first run after an installation, which compiles.
 
-The run compiles the loops in the order in which it comes to them, the other process from the last one on, until they
-meet: whoever has begun with a loop has it for both (`compilation`), and where the other process is missing, the run
-compiles all.
+A small run does not wait for it: Python interprets the loops, which takes less than to compile them and gives the same
+numbers to the last bit, and the other process goes on for later runs. A large run compiles the loops in the order in
+which it comes to them, the other process from the last one on, until they meet: whoever has begun with a loop has it
+for both (`compilation`), and where the other process is missing, the run compiles all.
 """
 
 from __future__ import annotations
@@ -13,19 +14,33 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numba import typeof
 
-from signorini.compilation import compile_aside
+from signorini.compilation import compile_aside, interpreted
 from signorini.condense._kernels import block_on, felt_stiffness, mirror
 from signorini.fem import _kernels
 from signorini.linalg import _front_solves, _fronts, _symbolic
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination, Graph, Rows, both_ways, quotient, subgraph
-from signorini.linalg.multifrontal import compiled
 from signorini.linalg.plan import RELAX, Fronts
+from signorini.model.model import Model
+
+INTERPRETED_NODES = 4000
+"""Nodes of the largest plane model whose loops are interpreted, which takes two seconds; to compile them takes ten."""
+FIRST_SOLVE = "first solve on this machine: compiling takes ten seconds, once"
+
+
+def compiled() -> bool:
+    """Whether compiled loops are on disk, where the first solve leaves them: of the first and of the last it needs."""
+    loops: tuple[tuple[str, Any], ...] = (
+        ("_kernels.node_pattern", _kernels.node_pattern),
+        ("_fronts.factorise_fronts", _fronts.factorise_fronts),
+    )
+    return all(any(Path(loop.stats.cache_path or ".").glob(f"{name}-*.nbi")) for name, loop in loops)
 
 
 def calls() -> list[tuple[Any, tuple[object, ...]]]:
@@ -74,19 +89,45 @@ def compile_loops() -> None:
         compile_aside(loop, tuple(typeof(argument) for argument in arguments))  # type: ignore[no-untyped-call]
 
 
+def compiles_first(model: Model) -> bool:
+    """Whether a run has to compile before it can solve.
+
+    Parameters
+    ----------
+    model : that it solves
+    """
+    return not compiled() and (model.dimension == 3 or len(model.mesh.points) > INTERPRETED_NODES)
+
+
 @contextmanager
-def helped() -> Iterator[None]:
-    """Have another process compile while the block runs, if anything is left to compile, and there is a core for it."""
-    if compiled() or not sys.executable or (os.cpu_count() or 1) < 2:
+def helped(model: Model) -> Iterator[None]:
+    """Have another process compile while the block runs, if anything is left to compile.
+
+    Parameters
+    ----------
+    model : that is solved in the block
+    """
+    if compiled():
         yield
-        return
+    elif not compiles_first(model):
+        _begun()
+        with interpreted([loop for loop, _ in calls()]):
+            yield
+    else:
+        beside = _begun() if (os.cpu_count() or 1) > 1 else None
+        try:
+            yield
+        finally:
+            if beside is not None:
+                beside.terminate()
+                beside.wait()
+
+
+def _begun() -> subprocess.Popen[bytes] | None:
+    """The other process, if there is a Python to begin it."""
     quiet = subprocess.DEVNULL
-    beside = subprocess.Popen([sys.executable, "-m", __name__], stdin=quiet, stdout=quiet, stderr=quiet)
-    try:
-        yield
-    finally:
-        beside.terminate()
-        beside.wait()
+    command = [sys.executable, "-m", __name__]
+    return subprocess.Popen(command, stdin=quiet, stdout=quiet, stderr=quiet) if sys.executable else None
 
 
 if __name__ == "__main__":
