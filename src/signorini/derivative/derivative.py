@@ -30,7 +30,7 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
 from signorini.model.model import Model
-from signorini.model.outputs import Displacement, Output, Stress, WeightedSum
+from signorini.model.outputs import Displacement, Dissipation, Output, Stress, WeightedSum
 from signorini.solution.sensitivities import Validity
 
 
@@ -305,8 +305,9 @@ class Derivative:
 
     def _at_once(self, change: BodyChange | ModulusChange) -> float:
         """What a change of the bodies changes of the output while motions, forces and displacements stay."""
-        untilted = isinstance(change, ModulusChange) and not change.tilts
-        if isinstance(self.output, Displacement) or (untilted and not isinstance(self.output, Stress | WeightedSum)):
+        if isinstance(self.output, Dissipation | Displacement):  # of motions and forces, or displacements, alone
+            return 0.0
+        if isinstance(change, ModulusChange) and not change.tilts and not isinstance(self.output, Stress | WeightedSum):
             return 0.0
         low, high = change.views(self._history.view)
         return (value(self.output, high) - value(self.output, low)) / (2.0 * change.step)
