@@ -82,6 +82,7 @@ def watched(monkeypatch):
 
         return told
 
+    monkeypatch.setattr(_front_products, "STRIP", 5)
     for module in (_fronts, _front_solves, _front_products):
         monkeypatch.setattr(module, "np", found)
         for name, loop in list(vars(module).items()):

@@ -53,7 +53,9 @@ class BodyChange:
     @cached_property
     def stiffness(self) -> sp.csr_array:
         """(dofs, dofs) K'."""
-        return self.low.stiffness_change(self.high) / (2.0 * self.step)
+        found = self.low.stiffness_change(self.high)
+        found.data /= 2.0 * self.step
+        return found
 
     @cached_property
     def loads(self) -> Mapping[str, Array]:

@@ -42,7 +42,10 @@ class BodySide:
     def stiffness_change(self, other: BodySide) -> sp.csr_array:
         """(dofs, dofs) What the stiffness at the other side has beyond that at this one."""
         if self.body is None:
-            return sp.csr_array(other._stiffness - self._stiffness)
+            low, high = self._stiffness, other._stiffness
+            if np.array_equal(low.indptr, high.indptr) and np.array_equal(low.indices, high.indices):
+                return sp.csr_array((high.data - low.data, low.indices, low.indptr), shape=low.shape)
+            return sp.csr_array(high - low)
         own = of_bodies(straining_groups(self.space, self.model), np.arange(len(self.model.bodies)) == self.body)
         return stiffness_change(self.space, self.model, other.model, own)
 

@@ -22,6 +22,8 @@ from signorini.linalg._fronts import list_below, sizes
 from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.plan import Fronts
 
+STRIP = 64  # columns of a symmetric product that are formed at a time
+
 
 @kernel()
 def deepest(fronts: Fronts) -> int:
@@ -116,12 +118,18 @@ def _eliminate(k: int, r: int, panel: int, P: int, s: Scratch) -> None:
     """Products of what a front eliminates, also with what is below it, from the address of its columns into P's."""
     size = k + r
     own, lower = StoredMatrix(panel, size), StoredMatrix(panel + 8 * k, size)
-    inner, mixed = StoredMatrix(P, size), StoredMatrix(P + 8 * k * size, size)
+    mixed = StoredMatrix(P + 8 * k * size, size)
     rest = StoredMatrix(P + 8 * k * (size + 1), size)
     gemm(FIRST_TRANSPOSED, k, r, r, lower, rest, s.zero, mixed, s)
     trsm(s.left, s.transposed, k, r, own, mixed, s)
-    gemm(AS_STORED, k, k, r, mixed, lower, s.zero, inner, s)
-    trsm(s.right, s.plain, k, k, own, inner, s)
+    for begin in range(0, k, STRIP):  # the upper triangle alone is read
+        end = min(begin + STRIP, k)
+        some, into = StoredMatrix(lower.begin + 8 * begin * size, size), StoredMatrix(P + 8 * begin * size, size)
+        gemm(AS_STORED, end, end - begin, r, mixed, some, s.zero, into, s)
+    for begin in range(0, k, STRIP):
+        corner = 8 * begin * (size + 1)
+        some, into = StoredMatrix(panel + corner, size), StoredMatrix(P + corner, size)
+        trsm(s.right, s.plain, min(STRIP, k - begin), k - begin, some, into, s)
 
 
 @part()
