@@ -134,7 +134,7 @@ def condensing(
         dense, border = dense + _SQUARE[0] * len(dofs) ** 2, 0.0  # contact nodes are kept; else pairs, in a border
     factor, power = _GENEROUS[:2] if interface.directions == 2 else _GENEROUS[2:]
     bound = Condensing(8.0 * (factor * K.shape[0] ** power + dense) + border, _GENEROUS_WORK * K.shape[0] ** 2.0, rows)
-    if bound.bytes <= plenty and condensing_work(bound, K.nnz) <= dear:
+    if bound.bytes <= plenty and (dear == np.inf or condensing_work(bound, K.nnz) <= dear):
         return bound
     plan = analyse(checked_system(K, dofs, nodes, points))
     return Condensing(plan.peak_bytes + 8.0 * dense + border, plan.flops, rows)

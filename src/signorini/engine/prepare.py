@@ -307,7 +307,7 @@ def prepare(
         near = candidate_pairs(examined, examined.loading, None if start is None else start.near)
     before = None if start is None else start.standing
     first = increments_before(examined, start, backend) if saves else np.inf
-    number = first + increments_of(next(stages(model, before=before)), examined)
+    number = first + increments_of(next(stages(model, before=before)), examined) if saves else np.inf
     made = condensed_model(examined, K, near, backend, settings or SolverSettings(), clock, increments=number)
     if made.spared:  # every step counts its own
         made = replace(made, increments=first)

@@ -75,7 +75,8 @@ def solve(
     after_step : is given what is finished after every step but the last, to keep it
     tape : takes what is followed, for derivatives
     """
-    saves = tape is None and not wellposed  # which ask for the condensed interface
+    # a tape and well-posedness ask for the condensed interface, and in the plane it is always cheaper
+    saves = model.dimension == 3 and tape is None and not wellposed
     prepared = prepare(model, start=start, backend=backend, settings=settings, clock=clock, saves=saves)
     return solve_prepared(
         prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed, after_step=after_step, tape=tape
