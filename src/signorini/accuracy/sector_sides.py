@@ -31,7 +31,7 @@ def sector_twins(model: Model, simplices: Simplices) -> IntArray:
     >>> from signorini.gallery.sectors import ring_on_pads
     >>> ring = ring_on_pads(whole=False)
     >>> len(sector_twins(ring, Simplices.of(ring.mesh))), len(ring.mesh.facets("ring.start")[0])
-    (8, 4)
+    (6, 3)
     """
     space, number, found = space_of(model), corner_numbers(model.mesh), [NO_TWINS]
     for j in range(len(model.cyclic_symmetries)):
