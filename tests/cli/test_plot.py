@@ -107,6 +107,8 @@ def test_folders_say_what_they_lack(tmp_path: Path, folder: Path, capsys: pytest
         return capsys.readouterr().err
 
     assert "there is no folder" in said(tmp_path / "none")
+    assert main(["report", str(tmp_path / "none")]) == 2
+    assert f"there is no folder '{tmp_path / 'none'}'; expected one that 'signorini run'" in capsys.readouterr().err
     assert f"the folder '{tmp_path}' has no 'summary.json'" in said(tmp_path)
     shutil.copy(folder / "summary.json", tmp_path)
     assert f"the folder '{tmp_path}' has no 'solution.h5'\n" in said(tmp_path)

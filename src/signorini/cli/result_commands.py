@@ -74,7 +74,7 @@ def report(options: argparse.Namespace) -> int:
     """Write the page and say where it is."""
     folder = Path(options.folder)
     file = Path(options.file) if options.file else folder / "report.html"
-    if not file.parent.is_dir():
+    if options.file and not file.parent.is_dir():
         raise InputError(f"there is no folder '{file.parent}'", where=("-o",))
     history, sensitivities = read_folder(folder), read_sensitivities(folder)
     if sensitivities is not None and not of_this_run(sensitivities, history):
