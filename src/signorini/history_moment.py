@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -26,7 +26,7 @@ from signorini.output.vtu import write_bodies
 from signorini.plasticity.fields import PlasticFields
 from signorini.short import Short
 from signorini.solution.history import History, find_contact
-from signorini.solution.results import ContactResult, Instant
+from signorini.solution.results import ContactResult, Instant, ObstacleMotion
 
 if TYPE_CHECKING:
     import pandas
@@ -95,6 +95,17 @@ class HistoryMoment(Short):
         """
         assert self.state.displacement is not None
         return self.state.displacement
+
+    @property
+    def motions(self) -> Mapping[str, ObstacleMotion]:
+        """Of moving obstacles and rigid bodies, by name; empty where an older archive does not say them.
+
+        Raises
+        ------
+        InputError
+            If the displacements do not follow from the forces of the contacts.
+        """
+        return self.state.motions or {}
 
     @cached_property
     def state(self) -> State:

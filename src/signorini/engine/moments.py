@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 
@@ -11,13 +11,13 @@ import numpy as np
 
 from signorini.arrays import Array, frozen
 from signorini.engine.examine import Examined, examine
-from signorini.engine.reactions import rigid_dofs
+from signorini.engine.reactions import rigid_dofs, rigid_motions
 from signorini.engine.recovery import Recovery
 from signorini.errors import InputError
 from signorini.linalg.threads import one_thread
 from signorini.solution.history import History
 from signorini.solution.nodal_forces import NodalForces
-from signorini.solution.results import OPEN, Instant, StepResult
+from signorini.solution.results import OPEN, Instant, ObstacleMotion, StepResult
 
 _RANK_TOL = 1e-9  # of the largest: motions that pairs see less of are not known
 _FIT_TOL = 1e-6  # of the largest displacement: how far gaps and slips may be from those of the bodies
@@ -26,7 +26,8 @@ _FIT_TOL = 1e-6  # of the largest displacement: how far gaps and slips may be fr
 def at_rest(history: History) -> Instant:
     """The bodies of a history before any load: nothing presses, gaps are those of the mesh."""
     model, first = history.model, history.steps[0].instants[0]
-    interface = examine(replace(model, fatigue=())).interface
+    examined = examine(replace(model, fatigue=()))
+    interface, space = examined.interface, examined.space
     contacts = []
     for i, contact in enumerate(first.contacts):
         still = 0.0 * contact.traction
@@ -49,6 +50,7 @@ def at_rest(history: History) -> Instant:
         work=0.0,
         displacement=frozen(np.zeros_like(history.steps[0].displacement)),
         factors={},
+        motions=rigid_motions(model, space, np.zeros(space.number_of_dofs)),
     )
 
 
@@ -65,7 +67,8 @@ def whole_instant(recovery: Recovery, history: History, number: int, instant: In
     space, constraints = recovery.examined.space, recovery.examined.constraints
     reaction = space.at_nodes(recovery.held(instant, u) + constraints.foundation_forces(u))
     forces = NodalForces.of(reaction, space.at_nodes(recovery.pressed(instant)))
-    return replace(instant, displacement=frozen(space.at_nodes(u)), nodal_forces=forces)
+    motions = rigid_motions(history.model, space, u)
+    return replace(instant, displacement=frozen(space.at_nodes(u)), nodal_forces=forces, motions=motions)
 
 
 @one_thread()
@@ -124,37 +127,35 @@ def _settled(
 def _references(recovery: Recovery, history: History, number: int, instant: Instant) -> Iterator[tuple[Instant, Array]]:
     """Instants with displacements (dofs,) that were kept, those that are next to a moment first."""
     step = history.steps[number - 1]
-    known: list[tuple[Instant, Array | None, StepResult | None]] = [
-        (shot, shot.displacement, None) for shot in step.instants[:-1]
-    ]
-    known.append((step.instants[-1], step.displacement, step))
+    known: list[tuple[Instant, Instant | StepResult]] = [(shot, shot) for shot in step.instants[:-1]]
+    known.append((step.instants[-1], step))
     if number > 1:
         before = history.steps[number - 2]
-        known.append((before.instants[-1], before.displacement, before))
+        known.append((before.instants[-1], before))
     elif history.begin is not None:
-        known.append((history.begin, history.begin.displacement, None))
+        known.append((history.begin, history.begin))
     rigid = bool(recovery.examined.model.obstacles or recovery.examined.model.rigid_bodies)
-    for state, kept, end in sorted(known, key=lambda each: abs(each[0].load_factor - instant.load_factor)):
-        if kept is not None and (end is not None or not rigid):
-            yield state, whole_dofs(recovery.examined, kept, end)
+    for state, end in sorted(known, key=lambda each: abs(each[0].load_factor - instant.load_factor)):
+        if end.displacement is not None and (end.motions is not None or not rigid):
+            yield state, whole_dofs(recovery.examined, end.displacement, end.motions or {})
 
 
-def whole_dofs(examined: Examined, displacement: Array, step: StepResult | None = None) -> Array:
-    """(dofs,) Displacements of the bodies, with those of obstacles and rigid bodies where a step says them.
+def whole_dofs(examined: Examined, displacement: Array, motions: Mapping[str, ObstacleMotion]) -> Array:
+    """(dofs,) Displacements of the bodies, with those of obstacles and rigid bodies.
 
     Parameters
     ----------
     examined : the model
     displacement : (nodes, d) of the bodies
-    step : at whose end they are; None: obstacles and rigid bodies are NaN
+    motions : of obstacles and rigid bodies by name
     """
     space, model = examined.space, examined.model
     found = np.full(space.number_of_dofs, np.nan)
     found[: displacement.size] = displacement.ravel()
-    if step is not None:
-        for j, rigid in enumerate([*step.obstacles.values(), *step.rigid_bodies.values()]):
-            dofs, size = rigid_dofs(model, space, j)
-            found[dofs] = np.concatenate([rigid.displacement, np.atleast_1d(rigid.rotation)]) * size
+    for j, rigid in enumerate((*model.obstacles, *model.rigid_bodies)):
+        dofs, size = rigid_dofs(model, space, j)
+        motion = motions[rigid.name]
+        found[dofs] = np.concatenate([motion.displacement, np.atleast_1d(motion.rotation)]) * size
     return found
 
 

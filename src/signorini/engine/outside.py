@@ -110,7 +110,7 @@ def _row(recovery: Recovery, instant: Instant, u: Array) -> Mapping[str, float]:
 
 def _end(step: StepResult, examined: Examined) -> Mapping[str, float]:
     """Values by column at the end of a step."""
-    u = whole_dofs(examined, step.displacement, step)
+    u = whole_dofs(examined, step.displacement, step.motions)
     return _values(examined, step.reactions, {**step.obstacles, **step.rigid_bodies}, u)
 
 

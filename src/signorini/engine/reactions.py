@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
@@ -11,7 +13,7 @@ from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.model.links import directions
 from signorini.model.model import Model
-from signorini.solution.results import ObstacleResult
+from signorini.solution.results import ObstacleMotion, ObstacleResult
 
 
 def reactions(
@@ -65,13 +67,29 @@ def rigid_result(model: Model, space: Space, j: int, displacement: Array, force:
     """
     d = model.dimension
     dofs, size = rigid_dofs(model, space, j)
-    motion, acting = displacement[dofs] / size, force[dofs] * size
-    return ObstacleResult(
-        displacement=frozen(motion[:d]),
-        rotation=_number(motion[d:]),
-        force=frozen(acting[:d]),
-        moment=_number(acting[d:]),
-    )
+    acting = force[dofs] * size
+    motion = _motion(model, space, j, displacement)
+    return ObstacleResult(**vars(motion), force=frozen(acting[:d]), moment=_number(acting[d:]))
+
+
+def rigid_motions(model: Model, space: Space, displacement: Array) -> Mapping[str, ObstacleMotion]:
+    """The motions of moving obstacles, then of rigid bodies, by name.
+
+    Parameters
+    ----------
+    model, space : of the bodies
+    displacement : (dofs,) of all dofs
+    """
+    names = [rigid.name for rigid in (*model.obstacles, *model.rigid_bodies)]
+    return {name: _motion(model, space, j, displacement) for j, name in enumerate(names)}
+
+
+def _motion(model: Model, space: Space, j: int, displacement: Array) -> ObstacleMotion:
+    """The motion of the rigid body j, obstacles first, from displacements (dofs,)."""
+    d = model.dimension
+    dofs, size = rigid_dofs(model, space, j)
+    motion = displacement[dofs] / size
+    return ObstacleMotion(displacement=frozen(motion[:d]), rotation=_number(motion[d:]))
 
 
 def _number(values: Array) -> float | Array:

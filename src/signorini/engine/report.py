@@ -15,7 +15,7 @@ from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.energy import interface_energy, stored_energy, thermal_energy
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
-from signorini.engine.reactions import reactions, rigid_dofs, rigid_result
+from signorini.engine.reactions import reactions, rigid_dofs, rigid_motions, rigid_result
 from signorini.engine.step_parts import FollowedPart
 from signorini.engine.stride_pairs import where_bodies_are
 from signorini.engine.turning import forces_in_space
@@ -204,6 +204,7 @@ def instant_of(prepared: Prepared, state: State) -> Instant:
         plastic=_plastic(state, state, whole=True),
         places=frozen(prepared.space.mesh.points) if prepared.meshed is not None else None,
         nodal_forces=_nodal_forces(prepared, state),
+        motions=rigid_motions(prepared.model, prepared.space, state.displacement),
     )
 
 
@@ -260,6 +261,9 @@ def _instants(
             else None,
             nodal_forces=_nodal_forces(now, followed.after if snapshot is end else snapshot.state)
             if snapshot is end or snapshot.kept
+            else None,
+            motions=rigid_motions(prepared.model, prepared.space, snapshot.state.displacement)
+            if snapshot.kept
             else None,
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:

@@ -11,7 +11,8 @@ import numpy as np
 from signorini.arrays import padded
 from signorini.meshio_fixes import complete_meshio
 from signorini.model.model import Model
-from signorini.output.atomic_write import atomic_write, write_csv
+from signorini.output.atomic_write import write_csv
+from signorini.output.vtu import write_grid
 from signorini.solution.damping import JointDamping
 from signorini.solution.modes import NaturalModes
 
@@ -66,8 +67,7 @@ def write_shapes(model: Model, modes: Mapping[str, NaturalModes], path: Path) ->
         point_data=arrays | {"node": model.mesh.labels},
         cell_data={"body": model.mesh.by_family(model.body_of_cells())},
     )
-    with atomic_write(path) as aside:
-        meshio.write(aside, grid, file_format="vtu")
+    write_grid(grid, path)
 
 
 def write_damping(damping: JointDamping, path: Path) -> None:

@@ -17,7 +17,7 @@ from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle
 from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.history import PHASES, History
-from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, ObstacleResult, StepResult
+from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant, ObstacleMotion, StepResult
 
 
 def summary(history: History, seconds: Mapping[str, float], deck: str = "") -> dict[str, Any]:
@@ -147,6 +147,7 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "reactions": {name: _list(force) for name, force in step.reactions.items()},
         "obstacles": {name: _rigid(obstacle) for name, obstacle in step.obstacles.items()},
         "rigid_bodies": {name: _rigid(body) for name, body in step.rigid_bodies.items()},
+        "on_the_way": [_on_the_way(instant) for instant in step.instants[:-1] if instant.motions],
         "bolts": {name: asdict(bolt) for name, bolt in step.bolts.items()},
         "strain_energy": step.strain_energy,
         "interface_energy": step.interface_energy,
@@ -178,7 +179,13 @@ def _plastic(step: StepResult) -> dict[str, Any] | None:
     }
 
 
-def _rigid(found: ObstacleResult) -> dict[str, Any]:
+def _on_the_way(instant: Instant) -> dict[str, Any]:
+    """Where obstacles and rigid bodies are at a load inside of a step."""
+    motions = {name: _rigid(motion) for name, motion in (instant.motions or {}).items()}
+    return {"load_factor": instant.load_factor, "what": instant.what, "motions": motions}
+
+
+def _rigid(found: ObstacleMotion) -> dict[str, Any]:
     return {key: value if isinstance(value, float) else _list(value) for key, value in vars(found).items()}
 
 

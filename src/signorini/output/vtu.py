@@ -72,7 +72,7 @@ def write_bodies(
             **_by_name(fields.in_cells),
         },
     )
-    _write(grid, path, compress=compress)
+    write_grid(grid, path, compress=compress)
 
 
 def _plastic(fields: PlasticFields) -> dict[str, Array]:
@@ -124,11 +124,17 @@ def write_surfaces(model: Model, contacts: Sequence[ContactResult], path: Path) 
                 arrays[name] = np.zeros(len(arrays["gap"])) if each is None else each
     data = {name: np.concatenate([arrays[name] for arrays in every]) for name in every[0]}
     grid = meshio.Mesh(data.pop("points"), blocks, point_data=data, cell_data={"contact": owner})
-    _write(grid, path)
+    write_grid(grid, path)
 
 
-def _write(grid: meshio.Mesh, path: Path, *, compress: bool = False) -> None:
-    """Write a grid; lengths of arrays as UInt64, for those of more than 4 GB."""
+def write_grid(grid: meshio.Mesh, path: Path, *, compress: bool = False) -> None:
+    """Write a grid with its arrays; their lengths as UInt64, for those of more than 4 GB.
+
+    Parameters
+    ----------
+    grid, path : what is written, and the file
+    compress : whether it is to be half as large, which takes several times as long
+    """
     with atomic_write(path) as aside:
         grid.write(aside, file_format="vtu", compression="zlib" if compress else None, header_type="UInt64")
 

@@ -14,13 +14,14 @@ from signorini.arrays import Array
 from signorini.plot.curve import Curve, closed_range
 from signorini.plot.patch import draw_patches
 from signorini.plot.picture_data import PictureData
-from signorini.plot.style import BOUND, HOOP, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle, label
+from signorini.plot.style import BOUND, HOOP, PRESSURE, STATUS_COLOURS, TRACTION, dress, entitle, label, legend_under
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_LEGEND_COLUMNS = 3  # that fit below a panel
 _MAX_DOTS = 100  # nodes: more cannot be told apart as dots
 
 
@@ -31,7 +32,7 @@ def draw_contacts(data: PictureData) -> Figure:
     if data.solid:
         return draw_patches(data.patches, data.model.title, data.when, data.look)
     curves = data.curves()
-    figure = Figure(figsize=(7.6, 0.7 + 3.9 * max(len(curves), 1)), layout="constrained")
+    figure = Figure(figsize=(7.6, 0.7 + 4.5 * max(len(curves), 1)), layout="constrained")
     panels = figure.subplots(max(len(curves), 1), squeeze=False)[:, 0]
     for axes, curve in zip(panels, curves, strict=False):
         _draw(axes, curve)
@@ -74,7 +75,7 @@ def _draw(axes: Axes, curve: Curve) -> None:
         axes.set_xlim(*closed_range(curve))
     dress(axes, x=curve.place, y="pressure and friction, force per area")
     states = [Patch(color=colour, label=words) for words, colour in STATUS_COLOURS.items() if words in curve.status]
-    axes.legend(handles=[*lines, *states], fontsize=8.5, frameon=True, framealpha=0.92, edgecolor="none", loc="best")
+    legend_under(axes, [*lines, *states], _LEGEND_COLUMNS)
 
 
 def shade_status(axes: Axes, s: Array, status: NDArray[np.str_], colours: Mapping[str, str]) -> list[Artist]:

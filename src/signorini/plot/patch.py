@@ -15,7 +15,7 @@ from signorini.arrays import Array, IntArray
 from signorini.model.model import Model
 from signorini.plot.chart import Chart, chart_of
 from signorini.plot.look import Look
-from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, status_words
+from signorini.plot.style import INK, STATUS_INK, colour_bar, entitle, frame, label, legend_under, status_words
 from signorini.solution.results import OPEN, ContactResult
 from signorini.solution.surface import contact_faces
 
@@ -24,9 +24,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MAX_ARROWS = 400  # of friction: more hide each other
-_LEGEND_DISTANCE = 4.5  # font sizes from the axes to the legend: the label is between
+_LONGEST_ARROW = 0.1  # of the size of what is shown: the largest friction, less where there are many arrows
 _PANEL_WIDTH, _PANEL_HEIGHTS = 4.0, (1.2, 3.6)  # inches of a map: its width, the least and the most height
 _ROW_ROOM = 1.1  # inches of a row: for the names of axes and the legend
+_EDGE = 0.06  # of the size of what is shown: around it, where no arrow needs more
+_IN_LENGTHS = {"angles": "xy", "scale_units": "xy"}  # arrows are as long as points of the map are apart
 _PATCH_MARGIN = 0.35  # of the size of the closed patch: around it
 
 
@@ -105,7 +107,7 @@ def draw_patches(patches: Sequence[Patch], title: str, when: str, look: Look) ->
     for (left, right), patch in zip(panels, patches, strict=False):
         label(left, title=f"{patch.contact}, {when}")
         _pressure(figure, left, patch, look)
-        _status(right, patch)
+        _status(right, patch, look)
         for axes in (left, right):
             _frame(axes, patch, look)
     entitle(figure, title)
@@ -133,7 +135,7 @@ def _quartered(patch: Patch) -> tuple[Array, IntArray, Array]:
     return places, np.concatenate([faces[flat, :3], *cut]), np.concatenate([pressure, pressure[quads].mean(axis=1)])
 
 
-def _status(axes: Axes, patch: Patch) -> None:
+def _status(axes: Axes, patch: Patch, look: Look) -> None:
     from matplotlib.collections import PolyCollection
     from matplotlib.patches import Patch as Swatch
 
@@ -151,17 +153,11 @@ def _status(axes: Axes, patch: Patch) -> None:
     some = np.flatnonzero(np.isin(chart.node, patch.arrows))
     if len(some):
         right, up = (np.sum(shear[some] * part[some], axis=1) for part in (chart.first, chart.second))
-        axes.quiver(x[some], y[some], right, up, color=INK, width=0.003, zorder=2)
+        low, high = _corners(patch, look)
+        scale = np.hypot(right, up).max() / (_longest_arrow(patch) * (high - low).max())
+        axes.quiver(x[some], y[some], right, up, color=INK, width=0.003, zorder=2, scale=scale, **_IN_LENGTHS)
     label(axes, title="status and friction on the nonmortar body" if len(some) else "status")
-    axes.legend(
-        handles=handles,
-        fontsize=9,
-        frameon=False,
-        loc="upper center",
-        bbox_to_anchor=(0.5, 0.0),
-        borderaxespad=_LEGEND_DISTANCE,
-        ncols=len(handles),
-    )
+    legend_under(axes, handles, len(handles))
 
 
 def _marker(patch: Patch) -> float:
@@ -184,13 +180,19 @@ def window_of(patch: Patch) -> tuple[Array, Array]:
     return np.maximum(low, closed.min(axis=0) - margin), np.minimum(high, closed.max(axis=0) + margin)
 
 
+def _longest_arrow(patch: Patch) -> float:
+    """Of the size of what is shown: about as far as arrows are apart; 0 where there are none."""
+    count = len(patch.arrows)
+    return min(_LONGEST_ARROW, 1.0 / np.sqrt(count)) if count else 0.0
+
+
 def _corners(patch: Patch, look: Look) -> tuple[Array, Array]:
     """Lower left and upper right corner of what is shown."""
     if corners := look.corners("right up"):
         low, high = np.array(corners).T
         return low, high
     low, high = window_of(patch)
-    edge = 0.06 * (high - low).max()
+    edge = max(_EDGE, _longest_arrow(patch)) * (high - low).max()
     return low - edge, high + edge
 
 

@@ -78,7 +78,15 @@ def check_picture(
 
 
 def picture(data: PictureData, what: str) -> Figure:
-    """Draw a picture by its name, see `PICTURES`; axes have units."""
+    """Draw a picture by its name, see `PICTURES`; axes have units.
+
+    Raises
+    ------
+    InputError
+        If it is the one that PyVista renders.
+    """
+    if what == VIEW:
+        raise InputError("is 'view', which is rendered into a file; expected solution.view(path)", where=("what",))
     return literal(_drawn(data, what), data.units)
 
 

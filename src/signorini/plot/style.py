@@ -23,6 +23,7 @@ SCALE = "scale"
 """Mark of a length beside a picture, to which its unit is added."""
 
 _NO_UNITS = Units()
+_LEGEND_DISTANCE = 4.5  # font sizes from the axes to the legend: the label is between
 _QUANTITY = re.compile(r", (force per area|force|length|work)(?=$| \()")
 
 PRESSURE, TRACTION, BOUND = "#1b4f8a", "#c4451c", "#c4451c"
@@ -101,6 +102,19 @@ def colour_bar(figure: Figure, mappable: Any, panels: Axes | Sequence[Axes], wor
 def legend_below(figure: Figure, handles: Sequence[Any]) -> None:
     """All handles in one row below the panels."""
     figure.legend(handles=handles, fontsize=9, frameon=False, loc="outside lower center", ncols=len(handles))
+
+
+def legend_under(axes: Axes, handles: Sequence[Any], columns: int) -> None:
+    """Handles below axes and what they are named, where they cover no data; at most so many columns in a row."""
+    axes.legend(
+        handles=handles,
+        fontsize=9,
+        frameon=False,
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        borderaxespad=_LEGEND_DISTANCE,
+        ncols=min(columns, max(len(handles), 1)),
+    )
 
 
 def named(words: str, units: Units) -> str:

@@ -13,7 +13,6 @@ from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle
 from signorini.output.fields import State
 from signorini.plot.style import INK
-from signorini.solution.results import StepResult
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +30,7 @@ class Wall:
     shape : before it moves
     about : (2,) point about which it turns, length
     displacement : (2,) of that point at the moment, length
-    rotation : radians, small
+    rotation : radians
     """
 
     shape: Obstacle
@@ -42,16 +41,18 @@ class Wall:
     def depth(self, points: Array, *, moved: bool) -> Array:
         """Depths of points (n, 2) inside, (n,) length; ``moved``: of the obstacle at the moment."""
         if moved:
-            arm = points - self.about - self.displacement
-            points = points - self.displacement - self.rotation * np.column_stack([-arm[:, 1], arm[:, 0]])
+            cosine, sine = np.cos(self.rotation), np.sin(self.rotation)
+            points = (points - self.about - self.displacement) @ np.array(
+                [[cosine, -sine], [sine, cosine]]
+            ) + self.about
         return -self.shape.nearest(points)[0]
 
 
 def walls_of(model: Model, state: State) -> list[Wall]:
-    """Obstacles of a plane model in a state; none in space. On the way only those at rest are known."""
+    """Obstacles of a plane model in a state; none in space. Older archives do not say how they move within steps."""
     if model.dimension == 3:
         return []
-    known = state.obstacles if isinstance(state, StepResult) else {}
+    known = state.motions or {}
     moving = [(rigid.shape, rigid.about, known[rigid.name]) for rigid in model.obstacles if rigid.name in known]
     walls = [Wall(shape, np.array(about), found.displacement, float(found.rotation)) for shape, about, found in moving]
     resting = [contact.mortar for contact in model.contacts if isinstance(contact.mortar, Obstacle)]

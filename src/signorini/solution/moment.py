@@ -7,7 +7,7 @@ Between two events forces, gaps and slips are linear in the load, dissipation is
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from signorini.arrays import Array, frozen
 from signorini.errors import InputError, one_of
 from signorini.solution.history import History
-from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant, StepResult
+from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant, ObstacleMotion, StepResult
 
 NOTHING_HAPPENS = "between"
 """What happens at a moment between two instants: nothing."""
@@ -153,15 +153,16 @@ def at_load(history: History, number: int, load: float, rest: Callable[[], Insta
 def _before(history: History, number: int, rest: Callable[[], Instant]) -> Instant:
     """The state that a step begins in; what a step counts is counted anew."""
     first = history.steps[number - 1].instants[0]
-    displacement: Array | None
+    state: Instant | StepResult
     if number > 1:
-        end, displacement = history.steps[number - 2].instants[-1], history.steps[number - 2].displacement
+        state = history.steps[number - 2]
+        end = state.instants[-1]
     else:
-        end = rest() if history.begin is None else history.begin
-        displacement = end.displacement
+        state = end = rest() if history.begin is None else history.begin
     contacts = tuple(_counting_anew(contact) for contact in end.contacts)
     factors = {name: end.factors.get(name, 0.0) for name in first.factors}
-    return replace(end, contacts=contacts, displacement=displacement, work=0.0, factors=factors)
+    moved = {"displacement": state.displacement, "motions": state.motions}
+    return replace(end, contacts=contacts, work=0.0, factors=factors, **moved)
 
 
 def _counting_anew(contact: ContactResult) -> ContactResult:
@@ -220,7 +221,23 @@ def instant_at(history: History, place: MomentPlace) -> Instant:
         nodal_forces=before.nodal_forces.towards(after.nodal_forces, t)
         if known and before.nodal_forces is not None and after.nodal_forces is not None
         else None,
+        motions=_motions_between(before.motions, after.motions, t) if known else None,
     )
+
+
+def _motions_between(
+    before: Mapping[str, ObstacleMotion] | None, after: Mapping[str, ObstacleMotion] | None, t: float
+) -> Mapping[str, ObstacleMotion] | None:
+    """Of obstacles and rigid bodies at a part of the way; None where they are not known at both ends."""
+    if before is None or after is None:
+        return None
+    return {
+        name: ObstacleMotion(
+            displacement=frozen(_mean(before[name].displacement, end.displacement, t)),
+            rotation=(1.0 - t) * before[name].rotation + t * end.rotation,
+        )
+        for name, end in after.items()
+    }
 
 
 def _cycle_slips(history: History, place: MomentPlace, load: float) -> list[list[Array]]:

@@ -158,19 +158,29 @@ class ContactResult(Short):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class ObstacleResult(Short):
-    """A moving rigid obstacle, or a rigid body, at the end of a step.
+class ObstacleMotion(Short):
+    """Where a moving rigid obstacle, or a rigid body, is at one load.
 
     Attributes
     ----------
     displacement : (d,) of the point about which it rotates, length
     rotation : radians, counterclockwise; in space (3,)
-    force : (d,) on it, given or needed to drive it
-    moment : the same about that point, counterclockwise; in space (3,)
     """
 
     displacement: Array
     rotation: float | Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class ObstacleResult(ObstacleMotion):
+    """A moving rigid obstacle, or a rigid body, at the end of a step.
+
+    Attributes
+    ----------
+    force : (d,) on it, given or needed to drive it
+    moment : the same about the point about which it rotates, counterclockwise; in space (3,)
+    """
+
     force: Array
     moment: float | Array
 
@@ -231,6 +241,7 @@ class Instant(Short):
     plastic : flow of the bodies; None where none yields
     places : (nodes, d) of the mesh where displacements are known, if sides are worn and it has moved; otherwise None
     nodal_forces : where displacements are known, and at the end of a step; None where bodies turn
+    motions : of moving obstacles and rigid bodies by name, where displacements are known; otherwise None
     """
 
     load_factor: float
@@ -242,6 +253,7 @@ class Instant(Short):
     plastic: PlasticResult | None = None
     places: Array | None = None
     nodal_forces: NodalForces | None = None
+    motions: Mapping[str, ObstacleMotion] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -366,6 +378,11 @@ class StepResult(Short):
     def nodal_forces(self) -> NodalForces | None:
         """Of supports and contacts at its end."""
         return self.instants[-1].nodal_forces
+
+    @property
+    def motions(self) -> Mapping[str, ObstacleMotion]:
+        """Of moving obstacles and rigid bodies at its end, by name."""
+        return {**self.obstacles, **self.rigid_bodies}
 
     @property
     def contacts(self) -> tuple[ContactResult, ...]:
