@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from matplotlib.quiver import Quiver
 
 import signorini as sg
 from signorini.cli import main
@@ -156,3 +157,24 @@ def test_the_command_line_has_the_same_choices(pushed, tmp_path, capsys):
 
 def test_words_of_a_look():
     assert Look(range=(0, 1), scale=2.0).asked == ["range", "scale"]
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_legends_are_below_the_axes_and_arrows_within_them(pushed, d):
+    """What is drawn is neither hidden nor cut off."""
+    figure = pushed[d].plot()
+    figure.canvas.draw()
+    axes = next(axes for axes in figure.axes if axes.get_legend())
+    assert axes.get_legend().get_window_extent().y1 < axes.get_window_extent().y0
+    if d == 3:
+        (arrows,) = (artist for artist in axes.collections if isinstance(artist, Quiver))
+        along = np.column_stack([arrows.U, arrows.V]) / arrows.scale
+        (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+        tips = arrows.get_offsets() + along
+        assert np.abs(along).max() > 0.01 * (right - left)
+        assert ((tips > (left, low)) & (tips < (right, high))).all()
+
+
+def test_what_pyvista_renders_is_asked_for_by_its_own_name(pushed):
+    with pytest.raises(sg.InputError, match=r"what: is 'view', .*expected solution.view\(path\)"):
+        pushed[3].plot("view")

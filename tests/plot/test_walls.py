@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from matplotlib.contour import QuadContourSet
 
 import signorini as sg
 from signorini.output.dataclasses_json import from_plain, to_plain
@@ -56,10 +57,8 @@ def pressed(way, rigid):
 
 def drawn(figure):
     """Height of the line at which an obstacle of a picture begins."""
-    (line,) = [drawn for drawn in figure.axes[0].collections if type(drawn).__name__ == "QuadContourSet"][
-        -1
-    ].get_paths()
-    return float(np.mean(line.vertices[:, 1]))
+    lines = [artist for artist in figure.axes[0].collections if isinstance(artist, QuadContourSet)]
+    return float(np.mean(lines[-1].get_paths()[0].vertices[:, 1]))
 
 
 WAYS = [{"path": "exact"}, {"at": [0.5]}, {"path": "exact", "at": "events"}, {"increments": 2}]
@@ -106,7 +105,7 @@ def test_a_rigid_body_within_a_step():
 
 
 def test_archives_from_before_motions_were_kept_draw_what_they_know():
-    """An instant without its obstacles' motions is read, and its picture has no obstacle at a place that is not known."""
+    """An instant without its obstacles' motions is read; no obstacle is drawn at a place that is not known."""
     solution = pressed({"at": [0.5]}, {"u": (0, -0.3)})
     instant = solution.steps[0].instants[0]
     arrays = {}

@@ -63,7 +63,7 @@ def draw_accuracy(data: PictureData) -> Figure:
         _draw_levels(panels[-1], found)
     verdict = "estimated" if found.asked is None else f"{found.asked.error:g} of the {found.asked.of} asked for"
     reached = f"{found.pressure:.2%} of the pressure" if found.output is None else f"{found.output:.2%}"
-    entitle(figure, data.model.title, f"{data.size}; {verdict}, {reached} reached")
+    entitle(figure, data.model.title, f"{data.size}\n{verdict}, {reached} reached")
     return figure
 
 

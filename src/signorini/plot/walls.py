@@ -42,9 +42,8 @@ class Wall:
         """Depths of points (n, 2) inside, (n,) length; ``moved``: of the obstacle at the moment."""
         if moved:
             cosine, sine = np.cos(self.rotation), np.sin(self.rotation)
-            points = (points - self.about - self.displacement) @ np.array(
-                [[cosine, -sine], [sine, cosine]]
-            ) + self.about
+            turn = np.array([[cosine, -sine], [sine, cosine]])
+            points = (points - self.about - self.displacement) @ turn + self.about
         return -self.shape.nearest(points)[0]
 
 
