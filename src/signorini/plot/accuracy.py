@@ -95,7 +95,8 @@ def _draw_cells(
             first += len(cells)
             axes.add_collection(PolyCollection(list(points[cells]), facecolors=own, edgecolors="none"), autolim=False)
         draw_edges(axes, data.outlines, points, colour="#ffffff", alpha=0.5)
-        label(axes, x=data.model.axes[0], y=data.model.axes[1], title="at the contact" if i else "")
+        x, y = data.model.axes[:2]
+        label(axes, x=f"{x}, length", y=f"{y}, length", title="at the contact" if i else "")
         axes.tick_params(colors=INK, labelsize=9)
 
 
