@@ -26,7 +26,8 @@ from signorini.output.vtu import write_bodies
 from signorini.plasticity.fields import PlasticFields
 from signorini.short import Short
 from signorini.solution.history import History, find_contact
-from signorini.solution.results import ContactResult, Instant, ObstacleMotion
+from signorini.solution.obstacle_result import ObstacleMotion
+from signorini.solution.results import ContactResult, Instant
 
 if TYPE_CHECKING:
     import pandas

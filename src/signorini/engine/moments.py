@@ -17,7 +17,8 @@ from signorini.errors import InputError
 from signorini.linalg.threads import one_thread
 from signorini.solution.history import History
 from signorini.solution.nodal_forces import NodalForces
-from signorini.solution.results import OPEN, Instant, ObstacleMotion, StepResult
+from signorini.solution.obstacle_result import ObstacleMotion
+from signorini.solution.results import OPEN, Instant, StepResult
 
 _RANK_TOL = 1e-9  # of the largest: motions that pairs see less of are not known
 _FIT_TOL = 1e-6  # of the largest displacement: how far gaps and slips may be from those of the bodies

@@ -16,7 +16,8 @@ from signorini.engine.recovery import Recovery
 from signorini.errors import InputError
 from signorini.model.model import Model
 from signorini.solution.history import History
-from signorini.solution.results import Instant, ObstacleResult, StepResult
+from signorini.solution.obstacle_result import ObstacleResult
+from signorini.solution.results import Instant, StepResult
 
 _ROUNDING_TOL = 1e-12  # of all nodal forces: a smaller resultant is none
 

@@ -13,7 +13,7 @@ from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.model.links import directions
 from signorini.model.model import Model
-from signorini.solution.results import ObstacleMotion, ObstacleResult
+from signorini.solution.obstacle_result import ObstacleMotion, ObstacleResult
 
 
 def reactions(

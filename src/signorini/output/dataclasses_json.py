@@ -51,6 +51,7 @@ _HOMES = (
     "signorini.solution.contact_wear",
     "signorini.solution.fatigue_result",
     "signorini.solution.history",
+    "signorini.solution.obstacle_result",
     "signorini.solution.results",
     "signorini.solution.scale",
     "signorini.solution.state",

@@ -17,7 +17,8 @@ from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle
 from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.history import PHASES, History
-from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant, ObstacleMotion, StepResult
+from signorini.solution.obstacle_result import ObstacleMotion
+from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant, StepResult
 
 
 def summary(history: History, seconds: Mapping[str, float], deck: str = "") -> dict[str, Any]:

@@ -105,7 +105,7 @@ def legend_below(figure: Figure, handles: Sequence[Any]) -> None:
 
 
 def legend_under(axes: Axes, handles: Sequence[Any], columns: int) -> None:
-    """Handles below axes and what they are named, where they cover no data; at most so many columns in a row."""
+    """Draw a legend of ``handles`` below axes, where it covers no data, in at most so many ``columns``."""
     axes.legend(
         handles=handles,
         fontsize=9,

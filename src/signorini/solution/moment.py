@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from signorini.arrays import Array, frozen
 from signorini.errors import InputError, one_of
 from signorini.solution.history import History
-from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant, ObstacleMotion, StepResult
+from signorini.solution.obstacle_result import ObstacleMotion
+from signorini.solution.results import OPEN, SLIP, STICK, ContactResult, Instant, StepResult
 
 NOTHING_HAPPENS = "between"
 """What happens at a moment between two instants: nothing."""

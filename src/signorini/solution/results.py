@@ -18,6 +18,7 @@ from signorini.solution.bolt_result import BoltResult
 from signorini.solution.certificate import Certificate
 from signorini.solution.contact_wear import ContactWear
 from signorini.solution.nodal_forces import NodalForces
+from signorini.solution.obstacle_result import ObstacleMotion, ObstacleResult
 
 OPEN, STICK, SLIP = "open", "stick", "slip"
 
@@ -155,34 +156,6 @@ class ContactResult(Short):
     def count(self, status: str) -> int:
         """How many pairs are "open", "stick" or "slip"."""
         return int((self.status == status).sum())
-
-
-@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class ObstacleMotion(Short):
-    """Where a moving rigid obstacle, or a rigid body, is at one load.
-
-    Attributes
-    ----------
-    displacement : (d,) of the point about which it rotates, length
-    rotation : radians, counterclockwise; in space (3,)
-    """
-
-    displacement: Array
-    rotation: float | Array
-
-
-@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class ObstacleResult(ObstacleMotion):
-    """A moving rigid obstacle, or a rigid body, at the end of a step.
-
-    Attributes
-    ----------
-    force : (d,) on it, given or needed to drive it
-    moment : the same about the point about which it rotates, counterclockwise; in space (3,)
-    """
-
-    force: Array
-    moment: float | Array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)

@@ -13,7 +13,7 @@ from signorini.gallery.rolled_beds import rolled_bed
 from signorini.gallery.rolling import block_on_slope, pushed_disc, rolling_discs
 from signorini.gallery.yielding import SHEAR_STRENGTH
 from signorini.reference.plasticity import rolling_shakedown_limit
-from signorini.solution.results import ObstacleResult
+from signorini.solution.obstacle_result import ObstacleResult
 from signorini.verify.check import Check, checks_of
 from signorini.verify.yielding_points import yielding_points
 
