@@ -100,7 +100,8 @@ class BodyChange:
         """What it changes of an output through all points, its friction apart."""
         found = 0.0
         for own in of_same_bodies(points, adjoint):
-            found_at_once = self._by_sums(points, own, adjoint) if ContactSums.knows(points[own[0]].system) else None
+            many = ContactSums.knows(points[own[0]].system, len(own))
+            found_at_once = self._by_sums(points, own, adjoint) if many else None
             found += self._by_states(points, own, adjoint) if found_at_once is None else found_at_once
         return found
 

@@ -29,6 +29,8 @@ from signorini.fem.stiffness import reduced_stiffness
 from signorini.linalg.multifrontal import MultifrontalFactorisation
 from signorini.linalg.protocol import Reduced
 
+_FEW = 12  # points up to which it takes less time to substitute each back
+
 
 class ContactSums:
     """Sums over points of the same bodies, which are condensed onto contact nodes.
@@ -64,10 +66,16 @@ class ContactSums:
         self._pulled = {k: adjoint.pulled[i] for k, i in enumerate(numbers) if i in adjoint.pulled}
 
     @staticmethod
-    def knows(system: InterfaceSystem) -> bool:
-        """Whether the bodies are condensed onto contact nodes, by a factorisation that knows products."""
+    def knows(system: InterfaceSystem, points: int) -> bool:
+        """Whether the bodies are condensed onto contact nodes, by a factorisation that knows products, for many points.
+
+        Parameters
+        ----------
+        system, points : the interface, and how many points the sums are over
+        """
         response = system.condensed.response
-        return isinstance(response, ByNodes) and isinstance(response.factorisation, MultifrontalFactorisation)
+        by_nodes = isinstance(response, ByNodes) and isinstance(response.factorisation, MultifrontalFactorisation)
+        return by_nodes and points > _FEW
 
     def of_stiffness(self, K: sp.csr_array) -> float:
         """The sum of ``w_i . K u_i``, for a matrix (dofs, dofs) that has entries where the stiffness has some."""
