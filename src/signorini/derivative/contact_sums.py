@@ -29,7 +29,7 @@ from signorini.fem.stiffness import reduced_stiffness
 from signorini.linalg.multifrontal import MultifrontalFactorisation
 from signorini.linalg.protocol import Reduced
 
-_FEW = 12  # points up to which it takes less time to substitute each back
+_SUBSTITUTED = 12  # points of a history: up to so many it takes less time to substitute each back
 
 
 class ContactSums:
@@ -75,7 +75,7 @@ class ContactSums:
         """
         response = system.condensed.response
         by_nodes = isinstance(response, ByNodes) and isinstance(response.factorisation, MultifrontalFactorisation)
-        return by_nodes and points > _FEW
+        return by_nodes and points > _SUBSTITUTED
 
     def of_stiffness(self, K: sp.csr_array) -> float:
         """The sum of ``w_i . K u_i``, for a matrix (dofs, dofs) that has entries where the stiffness has some."""
