@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, frozen
 from signorini.engine.examine import Examined, examine
-from signorini.engine.reactions import rigid_dofs, rigid_motions
+from signorini.engine.reactions import rigid_dofs, rigid_motions, rigid_names
 from signorini.engine.recovery import Recovery
 from signorini.errors import InputError
 from signorini.linalg.threads import one_thread
@@ -153,9 +153,9 @@ def whole_dofs(examined: Examined, displacement: Array, motions: Mapping[str, Ob
     space, model = examined.space, examined.model
     found = np.full(space.number_of_dofs, np.nan)
     found[: displacement.size] = displacement.ravel()
-    for j, rigid in enumerate((*model.obstacles, *model.rigid_bodies)):
+    for j, name in enumerate(rigid_names(model)):
         dofs, size = rigid_dofs(model, space, j)
-        motion = motions[rigid.name]
+        motion = motions[name]
         found[dofs] = np.concatenate([motion.displacement, np.atleast_1d(motion.rotation)]) * size
     return found
 

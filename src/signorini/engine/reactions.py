@@ -80,8 +80,17 @@ def rigid_motions(model: Model, space: Space, displacement: Array) -> Mapping[st
     model, space : of the bodies
     displacement : (dofs,) of all dofs
     """
-    names = [rigid.name for rigid in (*model.obstacles, *model.rigid_bodies)]
-    return {name: _motion(model, space, j, displacement) for j, name in enumerate(names)}
+    return {name: _motion(model, space, j, displacement) for j, name in enumerate(rigid_names(model))}
+
+
+def rigid_names(model: Model) -> list[str]:
+    """Names of the moving obstacles, then of the rigid bodies: the order of their dofs.
+
+    Parameters
+    ----------
+    model : with them
+    """
+    return [obstacle.name for obstacle in model.obstacles] + [body.name for body in model.rigid_bodies]
 
 
 def _motion(model: Model, space: Space, j: int, displacement: Array) -> ObstacleMotion:

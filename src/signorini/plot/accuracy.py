@@ -95,8 +95,8 @@ def _draw_cells(
             first += len(cells)
             axes.add_collection(PolyCollection(list(points[cells]), facecolors=own, edgecolors="none"), autolim=False)
         draw_edges(axes, data.outlines, points, colour="#ffffff", alpha=0.5)
-        x, y = data.model.axes[:2]
-        label(axes, x=f"{x}, length", y=f"{y}, length", title="at the contact" if i else "")
+        right, up = data.model.axes[0], data.model.axes[1]
+        label(axes, x=f"{right}, length", y=f"{up}, length", title="at the contact" if i else "")
         axes.tick_params(colors=INK, labelsize=9)
 
 

@@ -28,7 +28,6 @@ _LONGEST_ARROW = 0.1  # of the size of what is shown: the largest friction, less
 _PANEL_WIDTH, _PANEL_HEIGHTS = 4.0, (1.2, 3.6)  # inches of a map: its width, the least and the most height
 _ROW_ROOM = 1.1  # inches of a row: for the names of axes and the legend
 _EDGE = 0.06  # of the size of what is shown: around it, where no arrow needs more
-_IN_LENGTHS = {"angles": "xy", "scale_units": "xy"}  # arrows are as long as points of the map are apart
 _PATCH_MARGIN = 0.35  # of the size of the closed patch: around it
 
 
@@ -155,7 +154,8 @@ def _status(axes: Axes, patch: Patch, look: Look) -> None:
         right, up = (np.sum(shear[some] * part[some], axis=1) for part in (chart.first, chart.second))
         low, high = _corners(patch, look)
         scale = np.hypot(right, up).max() / (_longest_arrow(patch) * (high - low).max())
-        axes.quiver(x[some], y[some], right, up, color=INK, width=0.003, zorder=2, scale=scale, **_IN_LENGTHS)
+        arrows = (x[some], y[some], right, up)  # as long as points of the map are apart
+        axes.quiver(*arrows, color=INK, width=0.003, zorder=2, scale=scale, angles="xy", scale_units="xy")
     label(axes, title="status and friction on the nonmortar body" if len(some) else "status")
     legend_under(axes, handles, len(handles))
 

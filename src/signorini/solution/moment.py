@@ -162,8 +162,8 @@ def _before(history: History, number: int, rest: Callable[[], Instant]) -> Insta
         state = end = rest() if history.begin is None else history.begin
     contacts = tuple(_counting_anew(contact) for contact in end.contacts)
     factors = {name: end.factors.get(name, 0.0) for name in first.factors}
-    moved = {"displacement": state.displacement, "motions": state.motions}
-    return replace(end, contacts=contacts, work=0.0, factors=factors, **moved)
+    end = replace(end, displacement=state.displacement, motions=state.motions)
+    return replace(end, contacts=contacts, work=0.0, factors=factors)
 
 
 def _counting_anew(contact: ContactResult) -> ContactResult:

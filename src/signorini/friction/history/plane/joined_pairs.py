@@ -62,6 +62,7 @@ def joined(problem: ContactProblem, first: IntArray) -> ContactProblem | None:
 
 def may_be_joined(problem: ContactProblem) -> bool:
     """Whether all pairs have Coulomb's law alone and may move along their tangents."""
+    if isinstance(problem.friction, Bound) or problem.axes is not None or problem.guided:
+        return False
     plain = problem.adhesion is None and problem.limit is None and problem.tresca is None
-    coulomb = plain and not isinstance(problem.friction, Bound) and problem.axes is None
-    return coulomb and not problem.guided and bool(np.isfinite(problem.friction).all())
+    return plain and bool(np.isfinite(problem.friction).all())
