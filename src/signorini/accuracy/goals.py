@@ -79,6 +79,8 @@ class Goal:
         neither is lost in rounding.
         """
         view, output = TapedHistory(tape, model).view, self._output
+        if view.points[-1].system.locked:  # what is lost before they lock would be missing
+            raise InputError("does not know bolts that lock", where=_WHERE)
         try:
             found, dual = value(output, view), dual_displacement(view, output)
         except InputError:  # nothing presses yet, or in one place alone

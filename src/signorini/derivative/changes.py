@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +12,7 @@ from signorini.arrays import Array
 from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
+from signorini.derivative.recursion import AtOnce
 from signorini.law.bound import FrictionBound
 from signorini.law.friction import PairFriction
 
@@ -116,11 +117,15 @@ class LoadChange:
 
     name: str
 
+    def factor(self, point: TapePoint) -> float:
+        """What the load grows by at a point, per unit of the parameter: its load factor."""
+        return point.load.factors.get(self.name, 0.0)
+
     def moved(self, points: Sequence[TapePoint]) -> list[tuple[Array, Array]]:
         """Motions of the pairs and resultants, at the load factors of the points."""
         found = []
         for point in points:
-            factor, unit = point.load.factors.get(self.name, 0.0), point.system.unit(self.name)
+            factor, unit = self.factor(point), point.system.unit(self.name)
             found.append((factor * unit.motion, factor * unit.resultant))
         return found
 
@@ -128,7 +133,7 @@ class LoadChange:
         """What the load changes of an output by motions and forces of the pairs."""
         found = 0.0
         for stack in adjoint.stacks:
-            factors = np.array([points[i].load.factors.get(self.name, 0.0) for i in stack.numbers])
+            factors = np.array([self.factor(points[i]) for i in stack.numbers])
             unit = stack.system.unit(self.name)
             found += stack.of(unit.motion, unit.resultant, factors)
         return found
@@ -136,3 +141,39 @@ class LoadChange:
     def bound(self, system: InterfaceSystem) -> None:  # noqa: ARG002
         """The friction stays."""
         return
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LockChange(LoadChange):
+    """The shortening at which a bolt has locked grows by a length."""
+
+    def factor(self, point: TapePoint) -> float:
+        """1 where the bolt is locked."""
+        return float(self.name in point.load.factors)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ChangeWithLocks:
+    """What a parameter changes at once, and by the shortenings at which bolts have locked before.
+
+    Attributes
+    ----------
+    change : at once
+    shortenings : by name, length per unit
+    """
+
+    change: AtOnce
+    shortenings: Mapping[str, float]
+
+    def moved(self, points: Sequence[TapePoint]) -> Sequence[tuple[Array, Array]]:
+        """Motions of the pairs (d, a), length, and resultants (k,), force, at points."""
+        found = list(self.change.moved(points))
+        for name, size in self.shortenings.items():
+            more = [(size * motion, size * resultant) for motion, resultant in LockChange(name=name).moved(points)]
+            pairs = zip(found, more, strict=True)
+            found = [(m + n, p + q) for (m, p), (n, q) in pairs] if found else more
+        return found
+
+    def bound(self, system: InterfaceSystem) -> BoundTerm | None:
+        """What it changes of the friction."""
+        return self.change.bound(system)

@@ -5,18 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array
 from signorini.derivative.adjoint import adjoint_of
 from signorini.derivative.body_changes import BodyChange
-from signorini.derivative.changes import LoadChange
-from signorini.derivative.functionals import value, weights
+from signorini.derivative.changes import ChangeWithLocks, LoadChange, LockChange
+from signorini.derivative.functionals import value
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.node_gradient import node_gradient
 from signorini.derivative.one_sided import beyond
@@ -82,11 +82,23 @@ class TapedHistory:
         self._edged: bool | None = None
         self._changes: dict[tuple[str, str], Change] = {}
         self._forward: dict[tuple[str, str], list[PointChange]] = {}
+        self._locked: dict[str, Derivative] = {}
 
     @property
     def prepared(self) -> Prepared:
         """The model, as it is at the end."""
-        return self.view.points[-1].system.prepared
+        return self.legs[-1].prepared
+
+    def locks(self) -> Iterator[tuple[LockChange, Derivative]]:
+        """The shortening of every bolt that locks, and its derivative at the end of the history before, kept."""
+        points = self.view.points
+        for name, dof in points[-1].system.locked.items():
+            if name not in self._locked:
+                before = [point for point in points if name not in point.system.locked]
+                node, axis = divmod(dof, self.view.model.components)
+                along = tuple(float(k == axis) for k in range(self.view.model.components))
+                self._locked[name] = Derivative(self.on(before), Displacement(node=node, along=along))
+            yield LockChange(name=name), self._locked[name]
 
     def on(self, points: Sequence[TapePoint]) -> TapedHistory:
         """The history with other states at some points."""
@@ -97,7 +109,10 @@ class TapedHistory:
     def forward(self, kind: str, name: str) -> list[PointChange]:
         """What a parameter changes at every point, kept."""
         if (kind, name) not in self._forward:
-            self._forward[kind, name] = forward(self.view.points, self.change(kind, name))
+            change = self.change(kind, name)
+            shortenings = {lock.name: shortening.along(change) for lock, shortening in self.locks()}
+            at_once = ChangeWithLocks(change=change, shortenings=shortenings) if shortenings else change
+            self._forward[kind, name] = forward(self.view.points, at_once)
         return self._forward[kind, name]
 
     def edges(self, kind: str, name: str) -> list[PathEdge]:
@@ -214,14 +229,14 @@ class Derivative:
         view, change = self._history.view, self._history.change(kind, name)
         last = view.number(self.output.load_factor)
         found = [edge for edge in self._history.edges(kind, name) if edge.point <= last]
-        own = self._along(change)
+        own = self.along(change)
         if not found:
             return own, own
         at_end = len(found) == 1 and found[0].point == last
         other = beyond(view, found[0].condition, self._history.legs, last) if at_end else None
         if other is None:
             raise InputError(f"{found[0].words}: what '{parameter}' does on the other side is not known")
-        across = Derivative(self._history.on(other), replace(self.output, load_factor=None))._along(change)
+        across = Derivative(self._history.on(other), replace(self.output, load_factor=None)).along(change)
         return (across, own) if found[0].change > 0.0 else (own, across)
 
     def holds(self, parameter: str) -> Validity:
@@ -243,7 +258,7 @@ class Derivative:
         if moved.shape != model.mesh.points.shape or not moved.any():
             words = f"has shape {moved.shape}; expected {model.mesh.points.shape}, a motion of some node"
             raise InputError(words, where=("motion",))
-        return self._along(shape_change(self._history.prepared, moved))
+        return self.along(shape_change(self._history.prepared, moved))
 
     @cached_property
     def nodes(self) -> Array:
@@ -269,10 +284,20 @@ class Derivative:
         if on_the_way:
             words = f"{on_the_way[0].words}: the derivative by '{kind}.{name}' has two sides there"
             raise InputError(f"{words}; sides('{kind}.{name}') gives both where that is known")
-        return self._along(self._history.change(kind, name))
+        return self.along(self._history.change(kind, name))
+
+    def along(self, change: Change) -> float:
+        """What a change changes of the output, also by the shortenings at which bolts lock."""
+        return self._along(change) + sum(share * shortening.along(change) for share, shortening in self._locks)
+
+    @cached_property
+    def _locks(self) -> list[tuple[float, Derivative]]:
+        """How the output changes with the shortening at which a bolt locks, and the derivative of that."""
+        found = ((self._along(lock), shortening) for lock, shortening in self._history.locks())
+        return [(share, shortening) for share, shortening in found if share]
 
     def _along(self, change: Change) -> float:
-        """What a change changes of the output."""
+        """What a change changes of the output while bolts that have locked are as long as they are."""
         points, adjoint = self._history.view.every, self._adjoint
         found = 0.0
         for system, friction in adjoint.bounds.items():
@@ -282,7 +307,7 @@ class Derivative:
         if isinstance(change, BodyChange | ModulusChange):
             found += self._at_once(change)
         if isinstance(change, LoadChange):
-            found += self._pulled_by(change.name)
+            found += self._pulled_by(change)
         return found
 
     def _gap(self, contact: str) -> Array:
@@ -290,14 +315,15 @@ class Derivative:
         view, found = self._history.view, np.zeros(len(self._history.view.interface))
         for stack in self._adjoint.stacks:
             found[stack.system.active] += stack.motion[:, 0].sum(axis=0)
-        return found[view.pairs(contact)]
+        through_locks = (share * shortening.gap[contact] for share, shortening in self._locks)
+        return sum(through_locks, found[view.pairs(contact)])
 
-    def _pulled_by(self, name: str) -> float:
+    def _pulled_by(self, change: LoadChange) -> float:
         """What a load or a moving support changes of an output of bodies while the pairs stay as they are."""
-        found = 0.0
+        found, name = 0.0, change.name
         for i, y in self._adjoint.pulled.items():
             point = self._history.view.points[i]
-            constraints, factor = point.system.prepared.constraints, point.load.factors.get(name, 0.0)
+            constraints, factor = point.system.prepared.constraints, change.factor(point)
             found += factor * float(y @ constraints.on_free(point.system.unit(name).forces))
             if name in constraints.prescribed:
                 found += factor * float(self._pulls[i] @ constraints.prescribed[name])
@@ -323,70 +349,3 @@ def split(parameter: str) -> tuple[str, str]:
     if not dot:
         raise InputError(f"is '{parameter}'; expected kind.name, 'friction.contact' or 'E.body'", where=("parameter",))
     return kind, name
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ContactTangent:
-    """What a parameter changes of a contact, per unit of it.
-
-    Attributes
-    ----------
-    name : of the contact
-    node : (n,) node indices, from 0, as of the contact's result
-    pressure, gap : (n,)
-    traction, motion : (n,) along the tangent, in space (n, 2); of friction, and of the nodes since the beginning
-    """
-
-    name: str
-    node: IntArray
-    pressure: Array
-    gap: Array
-    traction: Array
-    motion: Array
-
-
-class HistoryTangent:
-    """What one parameter changes of every answer.
-
-    Parameters
-    ----------
-    history : the history
-    changes : what the parameter changes at every point
-    load_factor : where it is asked for; None at the end
-    """
-
-    def __init__(self, history: TapedHistory, changes: Sequence[PointChange], load_factor: float | None) -> None:
-        self._history, self._changes = history, changes
-        self._number = history.view.number(load_factor)
-
-    def contact(self, name: str) -> ContactTangent:
-        """What it changes of a contact, by name."""
-        view, change = self._history.view, self._changes[self._number]
-        own = view.pairs(name)
-        area = view.interface.area[own]
-        traction, motion = (change.r[1:, own] / area).T, change.h[1:, own].T
-        plane = view.interface.directions == 2
-        return ContactTangent(
-            name=name,
-            node=view.interface.node[own],
-            pressure=change.r[0, own] / area,
-            gap=change.h[0, own],
-            traction=traction[:, 0] if plane else traction,
-            motion=motion[:, 0] if plane else motion,
-        )
-
-    def of(self, output: Output) -> float:
-        """What it changes of an output of contacts.
-
-        Raises
-        ------
-        InputError
-            For outputs of bodies: ask for the derivative of those.
-        """
-        if isinstance(output, Displacement | Stress):
-            raise InputError(f"{output!r} is an output of bodies; ask for its derivative")
-        found = 0.0
-        for i, weight in weights(output, self._history.view).items():
-            change = self._changes[i]
-            found += float(np.vdot(weight.h, change.h) + np.vdot(weight.r, change.r))
-        return found

@@ -6,9 +6,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from signorini.derivative.derivative import Derivative, HistoryTangent, TapedHistory
+from signorini.derivative.derivative import Derivative, TapedHistory
 from signorini.derivative.refusals import refuse_model
 from signorini.derivative.sensitivities import sensitivities
+from signorini.derivative.tangent import HistoryTangent
 from signorini.engine.solve import raise_failure, solve
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
@@ -111,5 +112,7 @@ class DifferentiableHistory(History):
 def tape_of(start: object) -> Tape:
     """A tape for a history: one that goes on from that of a solution, where there is one."""
     if isinstance(start, DifferentiableHistory) and start.tape is not None:
-        return Tape(legs=list(start.tape.legs), whole=start.tape.whole, lost=start.tape.lost)
+        return Tape(
+            legs=list(start.tape.legs), whole=start.tape.whole, lost=start.tape.lost, changed=start.tape.changed
+        )
     return Tape(whole=start is None)

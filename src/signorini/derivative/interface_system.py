@@ -12,8 +12,9 @@ the piece before. Nothing else is remembered. In space a pair that slips may tur
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
+from types import MappingProxyType
 
 import numpy as np
 from scipy.linalg import lapack
@@ -27,6 +28,7 @@ from signorini.friction.linear import Equilibrium, LinearSystem, Unknowns, linea
 from signorini.law.bound import SIGN
 from signorini.law.pair import Tangent
 from signorini.law.states import OPEN, SLIP_PLUS, STICK
+from signorini.solution.state import LoadPoint
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -77,12 +79,13 @@ class InterfaceSystem:
     ----------
     prepared : condensed
     friction : by contact whose friction some step has changed, the name of the coefficient that it has
+    locked : by name, the dof of the shortening of every bolt that has locked; its constraints prescribe them
     """
 
-    def __init__(self, prepared: Prepared, friction: Mapping[str, str]) -> None:
+    def __init__(self, prepared: Prepared, friction: Mapping[str, str], locked: Mapping[str, int]) -> None:
         paths = prepared.paths
         self.prepared, self.condensed, self.law = prepared, paths.condensed, paths.law
-        self.friction = friction
+        self.friction, self.locked = friction, locked
         self.active = np.flatnonzero(self.condensed.active)
         self.root: Array = self.condensed.root
         self.directions, self.pairs = prepared.interface.directions, len(self.active)
@@ -96,6 +99,13 @@ class InterfaceSystem:
     def bodies(self) -> tuple[int, ...]:
         """Names the bodies, loads and supports under it, which several systems share."""
         return tuple(id(part) for part in (self.condensed.response, self.prepared.loads, self.prepared.constraints))
+
+    def posed(self, point: LoadPoint) -> LoadPoint:
+        """A point of the load history, with the shortenings of locked bolts among its factors."""
+        if not self.locked:
+            return point
+        factors = {**point.factors, **{name: float(point.offset[dof]) for name, dof in self.locked.items()}}
+        return replace(point, factors=MappingProxyType(factors), reaction=np.zeros(0), offset=np.zeros(0))
 
     def states_of_codes(self, codes: IntArray) -> PairStates:
         """The states of codes (n,) with branches, in the plane."""

@@ -25,6 +25,7 @@ from signorini.derivative.conditions import (
     plane_slips,
 )
 from signorini.derivative.interface_system import InterfaceSystem, PairStates
+from signorini.derivative.locked_bolts import LockedBolts
 from signorini.derivative.quiet_ends import QuietEnd, quiet_end
 from signorini.derivative.space_conditions import (
     acting_pairs,
@@ -179,10 +180,11 @@ def tape_points(tape: Tape) -> list[TapePoint]:
     systems: dict[int, InterfaceSystem] = {}
     points: list[TapePoint] = []
     friction: dict[str, str] = {}
+    locked = LockedBolts()
     for number, leg in enumerate(tape.legs):
         friction = in_force(leg, friction)
         if id(leg.prepared) not in systems:
-            systems[id(leg.prepared)] = InterfaceSystem(leg.prepared, friction)
+            systems[id(leg.prepared)] = InterfaceSystem(locked.posed(leg.prepared), friction, dict(locked.lengths))
         system = systems[id(leg.prepared)]
         if leg.segment is None:
             points += _in_increments(number, leg, system)
@@ -215,7 +217,7 @@ def _on_path(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoi
             yield TapePoint(
                 leg=number,
                 system=system,
-                load=point.towards(leg.end, part),
+                load=system.posed(point.towards(leg.end, part)),
                 load_factor=leg.low + part * (leg.high - leg.low),
                 part=part,
                 states=system.states_of_codes(piece.state.state),
@@ -238,7 +240,7 @@ def _pressed(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoi
         yield TapePoint(
             leg=number,
             system=system,
-            load=leg.before.point,
+            load=system.posed(leg.before.point),
             load_factor=leg.low,
             part=0.0,
             states=states_of_piece(system.law, start.state, (none, none), (start.h, start.r))
@@ -291,7 +293,7 @@ def _increment(
     return TapePoint(
         leg=number,
         system=system,
-        load=leg.before.point.towards(leg.end, part),
+        load=system.posed(leg.before.point.towards(leg.end, part)),
         load_factor=leg.low + part * (leg.high - leg.low),
         part=part,
         states=states_of_piece(system.law, piece.state.state, (before.h, before.r), (piece.h, piece.r)),
@@ -343,7 +345,7 @@ def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[T
         yield TapePoint(
             leg=number,
             system=system,
-            load=state.point,
+            load=system.posed(state.point),
             load_factor=leg.low + part * (leg.high - leg.low),
             part=part,
             states=_touching(system, h, leg.where)

@@ -25,17 +25,21 @@ from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint, with_trials
 
 
-class Change(Protocol):
-    """What a parameter changes at once, per unit of it, where no pair moves."""
-
-    def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
-        """What it changes of an output, but by the friction."""
+class AtOnce(Protocol):
+    """What a parameter changes of the points of a history, per unit of it, where no pair moves."""
 
     def moved(self, points: Sequence[TapePoint]) -> Sequence[tuple[Array, Array]]:
         """Motions of the pairs (d, a), length, and resultants of loads (k,), force, at points; empty for none."""
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What it changes of the friction of the active pairs, scaled; None where that stays."""
+
+
+class Change(AtOnce, Protocol):
+    """A parameter by what it changes of the points of a history, and of an output."""
+
+    def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
+        """What it changes of an output, but by the friction."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,7 +59,7 @@ class PointChange:
     bound: BoundTerm | None
 
 
-def forward(points: Sequence[TapePoint], change: Change) -> list[PointChange]:
+def forward(points: Sequence[TapePoint], change: AtOnce) -> list[PointChange]:
     """What a parameter changes at every point.
 
     Parameters

@@ -8,6 +8,8 @@ from signorini.errors import InputError
 from signorini.model.model import Model
 
 _UNKNOWN = "derivatives do not know"
+_CHANGES = "contacts that change from step to step, and supports but for bolts that lock"
+_JUMPS = "jumps, and bodies that a load carries while others press"
 
 
 def refuse_model(model: Model) -> None:
@@ -42,7 +44,7 @@ def refuse_tape(tape: Tape, model: Model) -> None:
     if not tape.whole:
         raise InputError("goes on from a history without a tape; solve that with 'tape=True', too", where=("start",))
     if tape.lost:
-        raise InputError(f"{tape.lost}: {_UNKNOWN} {_what_was_lost(model)}")
+        raise InputError(f"{tape.lost}: {_UNKNOWN} {_CHANGES if tape.changed else _JUMPS}")
     if not tape.legs:
         raise InputError("no part of the history was followed; there is nothing to differentiate")
     for leg in tape.legs:
@@ -51,10 +53,6 @@ def refuse_tape(tape: Tape, model: Model) -> None:
             raise InputError(f"{leg.where}: contact was solved on the bodies as they are; {_UNKNOWN} that")
         if prepared.resting.any():
             raise InputError(f"{leg.where}: {_UNKNOWN} bodies that rest where they were left")
-
-
-def _what_was_lost(model: Model) -> str:
-    """What in a step is none of what derivatives go through."""
-    if any(step.release or step.hold or step.restore or step.inactive or step.active for step in model.steps):
-        return "supports and contacts that change from step to step"
-    return "jumps, and bodies that a load carries while others press"
+        bolts = {bolt.label for bolt in prepared.model.bolts}
+        if any(bolts & set(step.restore) for step in prepared.model.steps):
+            raise InputError(f"{_UNKNOWN} locked bolts that a step restores")

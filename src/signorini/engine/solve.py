@@ -29,7 +29,7 @@ from signorini.engine.step_parts import (
     reached,
     straight_parts,
 )
-from signorini.engine.support_changes import at_the_end, handed_over, refuse_moved
+from signorini.engine.support_changes import at_the_end, handed_over, locks_bolts, refuse_moved
 from signorini.engine.tape import Leg, Tape
 from signorini.engine.ways import follow_part
 from signorini.engine.wear_steps import follow_wearing
@@ -213,7 +213,7 @@ def _follow(
                             now = staged(prepared, stage, loading)
                         else:
                             now = prepared.under(prepared.interface, loading, prepared.absent)
-                        followed, cycle_ends = _from(end, constraints, now, stage, tape is not None)
+                        followed, cycle_ends = _from(end, constraints, now, stage, tape)
                     break
                 except SolveFailed:
                     if not (prepared.limited or prepared.spared):
@@ -251,13 +251,16 @@ def _follow(
 
 
 def _from(
-    end: Checkpoint, before: Constraints, now: Prepared, stage: Stage, taped: bool
+    end: Checkpoint, before: Constraints, now: Prepared, stage: Stage, tape: Tape | None
 ) -> tuple[FollowedPart, list[float]]:
     """A step from the end of the one before it and its supports, with the supports and contacts that it changes."""
     state = end.state if stage.released == end.standing.released else handed_over(now, before, end.state)
     if stage.inactive != end.standing.inactive:
         state = switched(now, state, pairs_of(now.model, now.interface, end.standing.inactive))
-    return _step(now, stage, state, taped)
+    if tape is not None and state is not end.state:
+        alone = stage.inactive == end.standing.inactive and locks_bolts(now.model, end.standing, stage)
+        tape.change(end.state, state, stage.name, locks=alone)
+    return _step(now, stage, state, tape is not None)
 
 
 def _motion(stop: SolveFailed | KeyboardInterrupt) -> Array | None:

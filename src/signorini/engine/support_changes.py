@@ -12,7 +12,8 @@ from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError
 from signorini.fem.supports import Constraints
-from signorini.model.stage import Stage
+from signorini.model.model import Model
+from signorini.model.stage import Stage, Standing
 from signorini.solution.state import LoadPoint, State
 
 _PLACE_TOL = 1e-9  # of the largest displacement: what compilers of other machines may change in it
@@ -38,7 +39,19 @@ def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
     other = now.held & ((now.owner != before.owner) | ~before.held)
     old = state.point.offset if len(state.point.offset) else np.zeros(len(imposed))
     offset = np.where(other, state.displacement - imposed, np.where(now.held, old, 0.0))
-    return replace(state, point=replace(state.point, reaction=reaction, offset=_completed(prepared, offset)))
+    return replace(state, point=replace(state.point, reaction=reaction, offset=completed(prepared, offset)))
+
+
+def locks_bolts(model: Model, before: Standing, after: Standing) -> bool:
+    """Whether supports change from step to step by nothing but bolts that lock, which a force has tightened.
+
+    Parameters
+    ----------
+    model : with what its bolts stand for
+    before, after : what stands in a step and the next
+    """
+    held = before.released - after.released
+    return after.released < before.released and held <= {bolt.label for bolt in model.bolts if bolt.force is not None}
 
 
 def refuse_moved(prepared: Prepared, state: State) -> None:
@@ -84,11 +97,17 @@ def at_the_end(prepared: Prepared, stage: Stage, point: LoadPoint) -> tuple[Arra
     restored = [labels.index(name) for name in stage.step.restore]
     kept = np.where(np.isin(prepared.constraints.owner, restored), 0.0, point.offset)
     kept[~prepared.constraints.held] = 0.0
-    return np.zeros_like(point.reaction), _completed(prepared, kept)
+    return np.zeros_like(point.reaction), completed(prepared, kept)
 
 
-def _completed(prepared: Prepared, offset: Array) -> Array:
-    """Offsets of held dofs, and with them what equations and ties make of them."""
+def completed(prepared: Prepared, offset: Array) -> Array:
+    """Offsets (dofs,) of held dofs, and with them what equations and ties make of them.
+
+    Parameters
+    ----------
+    prepared : under supports that hold them
+    offset : (dofs,) length, 0 of dofs that are not held
+    """
     constraints = prepared.constraints
     completed = constraints.completed(offset)
     paths = prepared.solver.paths

@@ -76,12 +76,28 @@ class Tape:
     whole : whether the history begins at rest, or goes on from one that has a tape
     end : the state that the last leg leads to; None before the first
     lost : the first step with something that was followed on no leg; empty where there is none
+    changed : whether that is a change of supports or contacts
     """
 
     legs: list[Leg] = field(default_factory=list)
     whole: bool = True
     end: State | None = None
     lost: str = ""
+    changed: bool = False
+
+    def change(self, before: State, after: State, where: str, *, locks: bool) -> None:
+        """Go on from a state under other supports or contacts, which is followed where bolts lock.
+
+        Parameters
+        ----------
+        before, after : the state under those before and after
+        where : name of the step, for what is lost
+        locks : whether nothing changes but that bolts lock
+        """
+        if locks:
+            self.end = after if self.end is before else self.end
+        elif not self.lost:
+            self.lost, self.changed = where, True
 
     def take(self, legs: tuple[Leg, ...], after: State, where: str) -> None:
         """Take what was followed up to a state.
