@@ -100,7 +100,7 @@ def outputs_of(model):
     return [*found, sg.dissipation().after(2.0), shortening, sg.stress(model.bodies[0].name, 0, "yy")]
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", ["cone", *(pytest.param(name, marks=pytest.mark.slow) for name in (*MODELS,)[:3])])
 def test_what_is_given_changes_what_locked_bolts_are(name):
     model = MODELS[name]()
     solution, outputs = sg.solve(model, tape=True), outputs_of(model)
@@ -184,3 +184,8 @@ def test_other_changes_are_refused_by_name(name):
     solution = sg.solve(replace(model, steps=[*model.steps[:2], step]), tape=True)
     with pytest.raises(sg.InputError, match=words):
         solution.derivative(sg.pressure("bed").peak)
+
+
+def test_an_accuracy_of_an_output_does_not_pass_over_locks():
+    with pytest.raises(sg.InputError, match="does not know bolts that lock"):
+        sg.solve(tightened(path="exact"), accuracy=sg.Accuracy(of=sg.force("bed", along=(0.0, 1.0)), error=0.2))
