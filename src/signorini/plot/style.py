@@ -24,7 +24,7 @@ SCALE = "scale"
 
 _NO_UNITS = Units()
 _LEGEND_DISTANCE = 4.5  # font sizes from the axes to the legend: the label is between
-_QUANTITY = re.compile(r", (force per area|force|length|work)(?=$| \()")
+_QUANTITY = re.compile(r", (force per area|force|length|work|volume)(?=$| \()")
 
 PRESSURE, TRACTION, BOUND = "#1b4f8a", "#c4451c", "#c4451c"
 HOOP = "#2a7f62"

@@ -21,6 +21,7 @@ class Units:
     force: str = "force"
     pressure: str = "force per area"
     work: str = "work"
+    volume: str = "volume"
 
     def after_comma(self, quantity: str) -> str:
         """Unit of a quantity behind a comma; of one without, "force per area", and of others nothing.
@@ -36,7 +37,7 @@ def units_of(words: str) -> Units:
     """Units from the words of a model; what they do not hold, or hold twice, is called by its quantity.
 
     >>> units_of("mm, N, MPa")
-    Units(length='mm', force='N', pressure='MPa', work='N mm')
+    Units(length='mm', force='N', pressure='MPa', work='N mm', volume='mm^3')
     >>> units_of("as given, consistent").pressure, units_of("N, m").pressure
     ('force per area', 'Pa')
     """
@@ -49,6 +50,7 @@ def units_of(words: str) -> Units:
         force=force or plain.force,
         pressure=pressure or plain.pressure,
         work=f"{force} {length}" if force and length else plain.work,
+        volume=f"{length}^3" if length else plain.volume,
     )
 
 

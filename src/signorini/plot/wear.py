@@ -182,6 +182,6 @@ def _volume(axes: Axes, course: _Course, data: PictureData, i: int) -> None:
         ways = np.array([each.distance.max(initial=0.0) for each in course.worn])
         most = (wear.nonmortar + wear.mortar) * force * ways
         axes.plot(course.cycles, most, ":", color=PRESSURE, lw=1.8, label="coefficients x force x longest way slid")
-    words = "volume" if data.solid or data.model.kind == "axisymmetric" else "volume (area times thickness)"
-    dress(axes, x="cycles", y=f"worn {words}")
+    words = "volume" if data.solid or data.model.kind == "axisymmetric" else "area times thickness"
+    dress(axes, x="cycles", y=f"worn {words}, volume")
     axes.legend(fontsize=8.5, frameon=False, loc="upper left")
