@@ -71,7 +71,8 @@ class _Shown:
     @property
     def names(self) -> dict[str, str]:
         """Of the axes."""
-        return {"x": self.data.model.axes[self.axes[0]], "y": self.data.model.axes[self.axes[1]]}
+        x, y = (self.data.model.axes[k] for k in self.axes)
+        return {"x": f"{x}, length", "y": f"{y}, length"}
 
 
 def draw_fatigue(data: PictureData) -> Figure:
@@ -113,7 +114,8 @@ def _curves(axes: Axes, shown: _Shown) -> None:
         axes.set_xlim(shown.low[k], shown.high[k])
         axis = shown.data.model.axes[k]
     below = f", {result.request.average} at distance {result.request.distance:g}" if result.request.distance else ""
-    dress(axes, x=axis, y="parameter", title=f"{result.name}{below}")
+    unit = "" if axis == "angle in degrees" else ", length"
+    dress(axes, x=f"{axis}{unit}", y="parameter", title=f"{result.name}{below}")
     axes.legend(fontsize=8.5, frameon=False, loc="best")
 
 
