@@ -32,14 +32,14 @@ from typing import Any, Literal
 from unittest.mock import patch
 
 import numpy as np
+import scipy
 
 import signorini as sg
 from benchmarks import command, page
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.errors import InputError, SolveFailed
-from signorini.friction import krylov, newton, overload
-from signorini.friction.history import rates
+from signorini.friction import krylov, newton
 from signorini.friction.history.space import find_rates as space_rates
 from signorini.friction.history.space import sticking_response as held
 from signorini.friction.space import proximal
@@ -186,8 +186,7 @@ def counted() -> Iterator[Work]:
         wrapped(krylov, "symmetric_product", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
         wrapped(krylov, "softened", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
         wrapped(proximal, "gauss_seidel", lambda a, k, _f: 2.0 * k["count"] * (3 * a[0].pairs) ** 2),
-        wrapped(rates, "linprog", programme),
-        wrapped(overload, "linprog", programme),
+        wrapped(scipy.optimize, "linprog", programme),
         wrapped(held.StickingResponse, "of", held_form),
         wrapped(space_rates, "_complementary", lambda a, _k, _f: 2.0 / 3.0 * len(a[1]) ** 3),
         wrapped(multifrontal, "analyse", planned),
