@@ -17,7 +17,7 @@ from signorini.plot.field import factor_words
 from signorini.plot.patch import Patch
 from signorini.plot.picture_data import PictureData
 from signorini.plot.shots import Shot, contact_shot, deformed, whole_shot
-from signorini.plot.style import INK
+from signorini.plot.style import INK, named
 
 _PANEL_SIZE = 1000  # pixels
 _ARROW_LENGTH = 0.12  # of what is shown: of the largest friction
@@ -28,7 +28,7 @@ _SURFACE = {"smooth_shading": True, "split_sharp_edges": True, "ambient": 0.64, 
 _BAR = {
     "color": INK,
     "vertical": False,
-    "height": 0.09,
+    "height": 0.12,
     "width": 0.5,
     "position_x": 0.25,
     "position_y": 0.02,
@@ -100,7 +100,7 @@ def _field(plotter: Any, pyvista: Any, data: PictureData, shot: Shot, scalar: Sc
     skin = shot.skin
     factor, points = deformed(data, shot)
     surface = _surface(pyvista, skin.pieces, points)
-    surface[scalar.words.format("").partition(",")[0]] = values = skin.values(scalar.values)
+    surface[_title(scalar.words.format(""), data)] = values = skin.values(scalar.values)
     limits = (0.0, float(values.max()) or 1.0)
     plotter.add_mesh(surface, cmap="viridis", clim=limits, scalar_bar_args=_BAR, **_SURFACE)
     _edges(plotter, pyvista, shot, points, "white", 0.25)
@@ -114,11 +114,16 @@ def _contact(plotter: Any, pyvista: Any, data: PictureData, shot: Shot) -> None:
     _edges(plotter, pyvista, shot, points, "#404040", 0.25)
     (patch,) = [patch for patch in data.patches if f"'{patch.contact}'" in shot.title]
     surface = _surface(pyvista, patch.faces, patch.points)
-    surface["pressure"] = patch.pressure
+    surface[_title("pressure, force per area", data)] = patch.pressure
     limits = (0.0, float(patch.pressure.max()) or 1.0)
     plotter.add_mesh(surface, cmap="OrRd", clim=limits, lighting=False, scalar_bar_args=_BAR)
     _friction(plotter, pyvista, patch, shot)
     _look(plotter, pyvista, shot, points, shot.title)
+
+
+def _title(words: str, data: PictureData) -> str:
+    """Words above a bar of colours; the line that ends keeps them off its numbers."""
+    return f"{named(words, data.units)}\n"
 
 
 def _surface(pyvista: Any, faces: IntArray, points: Array) -> Any:
