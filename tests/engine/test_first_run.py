@@ -124,6 +124,19 @@ def test_a_small_first_run_compiles_nothing_and_has_the_same_numbers_to_the_last
         assert (tmp_path / "first" / name).read_bytes() == (tmp_path / "later" / name).read_bytes()
 
 
+def test_loops_of_another_version_of_their_file_count_as_not_compiled(tmp_path, monkeypatch):
+    file = tmp_path / "updated_loops.py"
+    file.write_text(LOOP.format(call="double(1)"))
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    double = importlib.import_module("updated_loops").double
+    assert not first_run.on_disk(double)
+    double(1)
+    assert first_run.on_disk(double)
+    double._cache._cache_file._source_stamp = "another"
+    assert not first_run.on_disk(double)
+
+
 def test_python_interprets_parts_of_loops():
     assert sizes(Fronts(*[np.array([0, 1])] * 8), 0) == (0, 1, 0)
 

@@ -14,11 +14,12 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from pickle import UnpicklingError
 from typing import Any
 
 import numpy as np
 from numba import typeof
+from numba.core.caching import IndexDataCacheFile
 
 from signorini.compilation import compile_aside, interpreted
 from signorini.condense._kernels import block_on, felt_stiffness, mirror
@@ -35,12 +36,21 @@ FIRST_SOLVE = "first solve on this machine: compiling takes ten seconds, once"
 
 
 def compiled() -> bool:
-    """Whether compiled loops are on disk, where the first solve leaves them: of the first and of the last it needs."""
-    loops: tuple[tuple[str, Any], ...] = (
-        ("_kernels.node_pattern", _kernels.node_pattern),
-        ("_fronts.factorise_fronts", _fronts.factorise_fronts),
-    )
-    return all(any(Path(loop.stats.cache_path or ".").glob(f"{name}-*.nbi")) for name, loop in loops)
+    """Whether compiled loops are on disk, where the first solve leaves them: the first and the last that it needs."""
+    return on_disk(_kernels.node_pattern) and on_disk(_fronts.factorise_fronts)
+
+
+def on_disk(loop: Any) -> bool:
+    """Whether a kernel has been compiled as its file is now.
+
+    Parameters
+    ----------
+    loop : the kernel
+    """
+    try:
+        return bool(IndexDataCacheFile._load_index(loop._cache._cache_file))  # type: ignore[no-untyped-call]
+    except (AttributeError, ImportError, EOFError, UnpicklingError):  # of a version whose classes are gone
+        return False
 
 
 def calls() -> list[tuple[Any, tuple[object, ...]]]:
