@@ -129,7 +129,8 @@ def test_a_load_that_turns_carries_a_block_from_wall_to_wall():
     assert all("approaches by 0.75 along" in note for note in ways[1:])
     assert step.cycles[0].dissipation > 0.0
     np.testing.assert_allclose(step.cycles[1].dissipation, step.cycles[0].dissipation, rtol=1e-9)
-    np.testing.assert_allclose([step.released, step.energy_defect], 0.0, atol=1e-8 * step.cycles[0].dissipation)
+    work = 5.0 * 0.75  # of the load on the way from wall to wall, whose rounding the balance has
+    np.testing.assert_allclose([step.released, step.energy_defect], 0.0, atol=1e-12 * work)
 
 
 @pytest.mark.parametrize("kind", ["plane strain", pytest.param("space", marks=pytest.mark.slow)])
