@@ -18,6 +18,9 @@ from numba.core.registry import CPUDispatcher
 
 from signorini.turn import Turn
 
+UNREADABLE = (AttributeError, ImportError, EOFError, pickle.UnpicklingError)
+"""What reading an index of compiled loops ends in, where it is of a version of the package whose classes are gone."""
+
 _Loop = TypeVar("_Loop", bound=Callable[..., Any])
 
 
@@ -53,7 +56,7 @@ class _Index(IndexDataCacheFile):
     def _load_index(self) -> dict[Any, str]:
         try:
             found: dict[Any, str] = super()._load_index()  # type: ignore[no-untyped-call]
-        except (AttributeError, ImportError, EOFError, pickle.UnpicklingError):
+        except UNREADABLE:
             return {}
         return found
 

@@ -50,15 +50,9 @@ def lacks(contact, result, difference=0.0, linear=False):
     return errors.pressure.sum(), errors
 
 
-@pytest.mark.parametrize(
-    ("end", "facets"), [(2.95, (2, 3)), (3.2, (2, 3)), (3.4, (2, 3)), (1.05, (1, 2)), (1.6, (1, 2))]
-)
-def test_a_root_of_the_distance_from_the_end_is_told_from_its_chords(contact, end, facets):
-    """On the last two facets; before them it is away from them, too, and is not looked at."""
-    sign = 1.0 if facets[0] == 2 else -1.0
-    true = lambda x: np.sqrt(np.maximum(sign * (end - x), 0.0))  # noqa: E731
-    values = true(LINES)
-    expected = sum(
+def squares(true, values, end, facets):
+    """Integral over facets of the square of what lines between values lack of a function with a root at the end."""
+    return sum(
         quad(
             lambda x: (true(x) - np.interp(x, LINES, values)) ** 2,
             *LINES[i : i + 2],
@@ -67,6 +61,17 @@ def test_a_root_of_the_distance_from_the_end_is_told_from_its_chords(contact, en
         )[0]
         for i in facets
     )
+
+
+@pytest.mark.parametrize(
+    ("end", "facets"), [(2.95, (2, 3)), (3.2, (2, 3)), (3.4, (2, 3)), (1.05, (1, 2)), (1.6, (1, 2))]
+)
+def test_a_root_of_the_distance_from_the_end_is_told_from_its_chords(contact, end, facets):
+    """On the last two facets; before them it is away from them, too, and is not looked at."""
+    sign = 1.0 if facets[0] == 2 else -1.0
+    true = lambda x: np.sqrt(np.maximum(sign * (end - x), 0.0))  # noqa: E731
+    values = true(LINES)
+    expected = squares(true, values, end, facets)
     assert lacks(contact, with_pressures(contact, values))[0] == pytest.approx(expected, rel=1e-6)
 
 
@@ -76,15 +81,7 @@ def test_what_nodes_lack_at_the_end_is_told_with_the_root(contact, end):
     true = lambda x: np.sqrt(np.maximum(end - x, 0.0))  # noqa: E731
     wrong = np.where(end > LINES, true(LINES) + np.array([0.0, 0.0, -0.1, 0.15, 0.0, 0.0]), 0.0)
     result = with_pressures(contact, wrong)
-    expected = sum(
-        quad(
-            lambda x: (true(x) - np.interp(x, LINES, wrong)) ** 2,
-            *LINES[i : i + 2],
-            points=[end] if LINES[i] < end < LINES[i + 1] else None,
-            epsabs=1e-13,
-        )[0]
-        for i in ((2, 3) if end > 2.9 else (1, 2))
-    )
+    expected = squares(true, wrong, end, (2, 3) if end > 2.9 else (1, 2))
     found, _ = lacks(contact, result, true(LINES) - wrong)
     before = (LINES[2] - LINES[1]) * 0.1**2 / 3.0  # between the nodes at 1 and 1.7, of which the second is wrong
     assert found == pytest.approx(expected + before, rel=1e-6)

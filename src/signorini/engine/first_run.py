@@ -14,14 +14,13 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pickle import UnpicklingError
 from typing import Any
 
 import numpy as np
 from numba import typeof
 from numba.core.caching import IndexDataCacheFile
 
-from signorini.compilation import compile_aside, interpreted
+from signorini.compilation import UNREADABLE, compile_aside, interpreted
 from signorini.condense._kernels import block_on, felt_stiffness, mirror
 from signorini.fem import _kernels
 from signorini.linalg import _front_solves, _fronts, _symbolic
@@ -49,7 +48,7 @@ def on_disk(loop: Any) -> bool:
     """
     try:
         return bool(IndexDataCacheFile._load_index(loop._cache._cache_file))  # type: ignore[no-untyped-call]
-    except (AttributeError, ImportError, EOFError, UnpicklingError):  # of a version whose classes are gone
+    except UNREADABLE:
         return False
 
 
@@ -106,7 +105,12 @@ def compiles_first(model: Model) -> bool:
     ----------
     model : that it solves
     """
-    return not compiled() and (model.dimension == 3 or len(model.mesh.points) > INTERPRETED_NODES)
+    return not _interpretable(model) and not compiled()
+
+
+def _interpretable(model: Model) -> bool:
+    """Whether Python interprets the loops of a model in seconds."""
+    return model.dimension == 2 and len(model.mesh.points) <= INTERPRETED_NODES
 
 
 @contextmanager
@@ -119,7 +123,7 @@ def helped(model: Model) -> Iterator[None]:
     """
     if compiled():
         yield
-    elif not compiles_first(model):
+    elif _interpretable(model):
         _begun()
         with interpreted([loop for loop, _ in calls()]):
             yield
