@@ -88,7 +88,7 @@ ALLOWED = {
     "accuracy": CORE | {"engine", "derivative"},
     "derivative": CORE | {"engine"},
     "deck": {"law", "fatigue", "model", "meshing", "fem"},
-    "output": {"solution", "law", "fatigue", "model", "meshing", "fem", "plasticity"},
+    "output": {"solution", "law", "fatigue", "model", "meshing", "fem", "plasticity", "distributed"},
     "plot": {"solution", "law", "model", "output"},
     "inspection": CORE | {"engine", "deck", "output"},
     "report": {"solution", "law", "model", "output", "plot", "inspection"},

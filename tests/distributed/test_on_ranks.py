@@ -17,6 +17,7 @@ from signorini.distributed import ranks
 from signorini.gallery.cubes import cubes
 from signorini.gallery.sliding import dragged_cylinder
 from tests.helpers.on_ranks import MODELS
+from tests.helpers.rank_files import assert_whole, sources
 
 HOUSE = Path(__file__).parents[2]
 missing = [name for name in ("petsc4py", "mpi4py") if importlib.util.find_spec(name) is None]
@@ -75,13 +76,16 @@ def test_same_answers_on_several(number):
 @with_ranks
 @pytest.mark.slow
 def test_the_command_line_writes_the_same_results(tmp_path, capsys):
-    """From a deck, by two ranks; and of a wrong deck one message and exit code 2 of all."""
+    """From a deck, by two ranks, fields by both of them; and of a wrong deck one message and exit code 2 of all."""
     deck = HOUSE / "examples" / "zhu_cylinder_frictionless.toml"
     done = on_ranks(2, "-m", "signorini", "run", str(deck), "--backend", "petsc", "-o", str(tmp_path / "ranks"))
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("back end petsc") == 1
     assert main(["run", str(deck), "-o", str(tmp_path / "one"), "--quiet"]) == 0
     assert main(["diff", str(tmp_path / "one"), str(tmp_path / "ranks"), "--tolerance", "1e-8"]) == 0
+    index, whole = tmp_path / "ranks" / "solution.pvtu", tmp_path / "one" / "solution.vtu"
+    assert len(sources(index)) == 2
+    assert_whole(index, whole, 1e-7)
     capsys.readouterr()
     (tmp_path / "wrong.toml").write_text(deck.read_text().replace("friction = 0.0", "friction = -1.0"))
     for words, said in (

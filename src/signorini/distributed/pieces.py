@@ -20,42 +20,63 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints
 from signorini.model.body import Body
+from signorini.model.conditions import Load
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Piece:
-    """What a rank assembles.
+class PartOfBodies:
+    """Some cells of a mesh with their bodies, as they are sent to a rank.
 
     Attributes
     ----------
     nodes : (m,) their numbers in the mesh, ascending
     points : (m, d) where they are
-    own : (m,) those of this rank; the others are corners of their cells
-    cells : family to (k, corners) nodes, counted in the piece
+    cells : family to (k, corners) nodes, counted in the part
     bodies : of the cells; cells of other bodies are elsewhere
-    body : (k,) of every cell, one family after the other, the number of its body
+    body : (k,) of every cell, one family after the other, the number of its body among those of the part
     kind, thickness : of the model
-    springs : (m d, m d) of elastic foundations
     """
 
     nodes: IntArray
     points: Array
-    own: BoolArray
     cells: Mapping[str, IntArray]
     bodies: Sequence[Body]
     body: IntArray
     kind: str
     thickness: float
+
+    def model(self, *, loads: Sequence[Load] = (), node_numbers: IntArray | None = None) -> Model:
+        """A model of these cells and bodies alone.
+
+        Parameters
+        ----------
+        loads : on the bodies
+        node_numbers : (m,) what results call the nodes
+        """
+        named = {body.name: np.flatnonzero(self.body == i) for i, body in enumerate(self.bodies)}
+        mesh = Mesh(points=self.points, cells=self.cells, bodies=named, node_numbers=node_numbers)
+        return Model(mesh, kind=self.kind, thickness=self.thickness, bodies=self.bodies, loads=loads)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Piece(PartOfBodies):
+    """What a rank assembles.
+
+    Attributes
+    ----------
+    own : (m,) nodes of this rank; the others are corners of their cells
+    springs : (m d, m d) of elastic foundations
+    """
+
+    own: BoolArray
     springs: sp.csr_array
 
     def assembled(self) -> OwnStiffness:
         """The stiffness of the piece, by the kernel that assembles whole meshes."""
-        named = {body.name: np.flatnonzero(self.body == i) for i, body in enumerate(self.bodies)}
-        mesh = Mesh(points=self.points, cells=self.cells, bodies=named)
-        model = Model(mesh, kind=self.kind, thickness=self.thickness, bodies=self.bodies)  # type: ignore[arg-type]
-        K = stiffness(make_space(mesh, kind=self.kind), model)
+        model = self.model()
+        K = stiffness(make_space(model.mesh, kind=self.kind), model)
         return OwnStiffness(K=sp.csr_array(K + self.springs), own=np.repeat(self.own, model.components))
 
 

@@ -33,6 +33,7 @@ class Team:
     rank, size : number of this one, 0 of the first; how many there are
     held : what this rank keeps for the first one, by number
     code : exit code that the first rank leaves with
+    owners : on the first rank: (n,) rank of each node of every mesh that was cut, as long as somebody has the mesh
     """
 
     def __init__(self, comm: Any) -> None:
@@ -40,6 +41,7 @@ class Team:
         self.rank, self.size = int(comm.rank), int(comm.size)
         self.held: dict[int, Any] = {}
         self.code = 0
+        self.owners: weakref.WeakKeyDictionary[Any, Any] = weakref.WeakKeyDictionary()
         self.together = self.size == 1
         self._numbers = itertools.count()
         self._dropped: list[int] = []
@@ -203,6 +205,12 @@ def the_team() -> Team:
             f"back end '{PETSC}' needs petsc4py and mpi4py ({error}); docs/distributed.md says how they are installed"
         ) from error
     return Team(MPI.COMM_WORLD)
+
+
+def several_ranks() -> Team | None:
+    """All ranks of this run where there are several and they work together; otherwise None, and nothing is imported."""
+    team = the_team() if the_team.cache_info().currsize else None
+    return team if team is not None and team.together and team.size > 1 else None
 
 
 def _garbage_cleanup() -> None:

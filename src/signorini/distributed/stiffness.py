@@ -40,7 +40,7 @@ class StiffnessOnRanks:
         self.team, self.number = team, team.kept(self)
         self._d, self._space, self._model = space.components, space, model
         self.shape = (space.number_of_dofs, space.number_of_dofs)
-        self.owner = owners(space, interface.B, team.size)
+        self.owner = team.owners[space.mesh] = owners(space, interface.B, team.size)
         self.cut(constraints)
 
     def cut(self, constraints: Constraints) -> None:

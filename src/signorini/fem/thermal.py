@@ -32,12 +32,18 @@ def temperatures(space: Space, model: Model, factors: Mapping[str, float]) -> Ar
     names = [body.name for body in model.bodies]
     total = np.zeros((len(names), len(space.mesh.points)))
     for load in loads:
-        total[names.index(str(load.on))] += factors.get(load.label, 0.0) * _field(load, space.mesh.points)
+        total[names.index(str(load.on))] += factors.get(load.label, 0.0) * given_temperature(load, space.mesh.points)
     return total
 
 
-def _field(load: Load, points: Array) -> Array:
-    """Of a load at factor 1, (nodes,)."""
+def given_temperature(load: Load, points: Array) -> Array:
+    """Temperature of a load at factor 1, (nodes,).
+
+    Parameters
+    ----------
+    load : of temperature
+    points : (nodes, d) of the mesh
+    """
     given = load.temperature(points) if callable(load.temperature) else load.temperature
     field: Array = np.broadcast_to(np.asarray(given, float), (len(points),))
     return field

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.fem.space import Space
 from signorini.fem.stress import (
     BodyStress,
@@ -74,6 +74,37 @@ class BodyFields:
     def principal_stress(self) -> Array:
         """Principal values of the stress, the largest first, (n, 3) force per area."""
         return principal_stresses(self.stress)
+
+    def among(self, kept: Sequence[BoolArray]) -> BodyFields:
+        """The fields of some of the cells, with the points of these.
+
+        Parameters
+        ----------
+        kept : of every block (m,) whether a cell stays
+        """
+        blocks = [k for k, own in enumerate(kept) if own.any()]
+        cells = [self.cells[k][kept[k]] for k in blocks]
+        points = np.unique(np.concatenate([block.ravel() for block in cells]))
+
+        def at_points(values: Array | None) -> Array | None:
+            return None if values is None else values[points]
+
+        return BodyFields(
+            points=self.points[points],
+            displacement=self.displacement[points],
+            stress=self.stress[points],
+            node=self.node[points],
+            families=tuple(self.families[k] for k in blocks),
+            cells=tuple(np.searchsorted(points, block) for block in cells),
+            body=tuple(self.body[k][kept[k]] for k in blocks),
+            plastic=None if self.plastic is None else self.plastic.part(points),
+            in_cells=tuple(self.in_cells[k].part(kept[k]) for k in blocks) if self.in_cells else (),
+            depth=at_points(self.depth),
+            strain=at_points(self.strain),
+            tensors_in_cells=tuple(self.tensors_in_cells[k][kept[k]] for k in blocks) if self.tensors_in_cells else (),
+            reaction=at_points(self.reaction),
+            contact_force=at_points(self.contact_force),
+        )
 
 
 class Fields:

@@ -13,10 +13,12 @@ from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from signorini.clock import Clock
 from signorini.cores import number_of_threads
 from signorini.crew import Crew
+from signorini.distributed.ranks import PETSC
 from signorini.errors import InputError
 from signorini.model.prints import Prints
 from signorini.outcome import Outcome
@@ -28,10 +30,13 @@ from signorini.output.fatigue_csv import fatigue_fields, write_fatigue
 from signorini.output.fields import Fields
 from signorini.output.frd import write_frd
 from signorini.output.history_csv import write_history
-from signorini.output.series import FIELDS, frames, write_series
+from signorini.output.series import frames, write_series, write_state
 from signorini.output.summary import summary
-from signorini.output.vtu import write_bodies, write_surfaces
+from signorini.output.vtu import FIELDS, write_bodies, write_surfaces
 from signorini.solution.history import History
+
+if TYPE_CHECKING:
+    from signorini.output.rank_files import FieldsOnRanks
 
 try:
     import fcntl
@@ -41,12 +46,12 @@ except ImportError:  # Windows has no such module; two runs into one folder are 
 _MAX_KEEP_SHARE = 0.1  # of the time: more than that a run does not spend on writing what is finished while steps wait
 _ASIDE_PREFIX = ".writing-"  # of folders in which files are written before they appear
 _OWN_NAMES = re.compile(
-    r"(summary\.json|(contact|history|fatigue|contact_table|history_table)\.csv|state\.npz|solution(_\d{4,})?\.vtu|"
+    r"(summary\.json|(contact|history|fatigue|contact_table|history_table)\.csv|state\.npz|solution(_\d{4,})?\.p?vtu|"
     r"contact\.(vtu|pvd)|solution\.(pvd|h5|frd|dat)|"
     r"(contact|stress|displacement|peeq|mesh|view|history|wear|fatigue|accuracy|escape)\.png|report\.html|"
     r"(modes|damping|loops)\.csv|modes\.vtu|(modes|damping)\.png)"
 )
-_OWN_FIELD_NAMES = re.compile(r"(solution|contact)_\d{4,}_\d{4,}\.vtu")
+_OWN_FIELD_NAMES = re.compile(r"(solution|contact)(_\d{4,}){0,2}(_rank\d+)?\.p?vtu")
 
 SUMMARY = "summary.json"
 """The file of a result folder that tells of the run."""
@@ -191,6 +196,7 @@ class Publisher:
     _written: set[str] = field(default_factory=set)
     _archive: GrowingArchive = field(init=False)
     _spent: float = 0.0
+    _ranks: FieldsOnRanks | None = None
 
     def __post_init__(self) -> None:
         self._archive = GrowingArchive(compress=self.compress)
@@ -267,7 +273,12 @@ class Publisher:
         """
         if not history.steps and history.escape is None:
             return []
-        with Crew(min(number_of_threads(), 2)) as crew:
+        if history.backend == PETSC and self._ranks is None:
+            from signorini.output.rank_files import fields_on_ranks
+
+            self._ranks = fields_on_ranks(history)
+        # ranks hear from one thread
+        with Crew(min(number_of_threads(), 2 if self._ranks is None else 1)) as crew:
             parts = [lambda: self._write_fields(history, aside), lambda: self._write_archive(history, aside)]
             return [name for names in crew.each(parts) for name in names]
 
@@ -286,7 +297,7 @@ class Publisher:
             return []
         prints = None if history.status == Outcome.RUNNING else self.prints
         fields = Fields(history.model, shared=() if prints is None else history.steps)
-        names = _write_tables(history, fields, aside, done=self._written, compress=self.compress)
+        names = _write_tables(history, fields, aside, done=self._written, compress=self.compress, ranks=self._ranks)
         if prints is not None:
             write_frd(history, fields, aside / "solution.frd", prints.times)
             names.append("solution.frd")
@@ -312,32 +323,41 @@ def _clear(folder: Path) -> None:
 
 
 def _write_tables(
-    history: History, fields: Fields, folder: Path, *, done: Collection[str], compress: bool
+    history: History,
+    fields: Fields,
+    folder: Path,
+    *,
+    done: Collection[str],
+    compress: bool,
+    ranks: FieldsOnRanks | None,
 ) -> list[str]:
     """Rows and fields of the steps, and the state at the end of the last one; their names.
 
-    Fields whose names are in ``done`` are not written again.
+    Fields whose names are in ``done`` are not written again; ``ranks`` write them where several hold the bodies.
     """
     write_contacts(history, folder / "contact.csv")
     names = ["contact.csv"]
     model = history.model
     if len(history.steps) > 1 or any(shot.displacement is not None for shot in history.last.instants[:-1]):
-        names += write_series(fields, frames(history), folder, done=done, compress=compress)
-    last = folder / f"solution_{len(history.steps):04d}.vtu"
+        names += write_series(fields, frames(history), folder, done=done, compress=compress, ranks=ranks)
+    last, kind = f"solution_{len(history.steps):04d}", "vtu" if ranks is None else "pvtu"
+    if ranks is not None and not (folder / f"{last}.pvtu").exists():  # files of ranks are called by the step
+        shown = write_state(fields, history.last, folder, last, compress=compress, ranks=ranks)
+        names += [name for name in shown if name not in names]
     if history.fatigue_results:
         write_fatigue(history, folder / "fatigue.csv")
         names.append("fatigue.csv")
         further = fatigue_fields(history.fatigue_results, fields.stresses(history.last))
         write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu", further, compress=compress)
-    elif last.exists():
-        shutil.copyfile(last, folder / "solution.vtu")
+    elif (folder / f"{last}.{kind}").exists():
+        shutil.copyfile(folder / f"{last}.{kind}", folder / f"solution.{kind}")
     else:
         write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu", compress=compress)
     if model.contacts:
         write_surfaces(model, history.last.contacts, folder / SURFACES)
         names.append(SURFACES)
     write_history(history, folder / "history.csv")
-    names += ["solution.vtu", "history.csv"]
+    names += [f"solution.{kind}", "history.csv"]
     if history.end is not None:
         write_checkpoint(history.end, folder / "state.npz", compress=compress)
         names.append("state.npz")

@@ -6,16 +6,18 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
+from signorini.distributed.ranks import PETSC
 from signorini.output.atomic_write import atomic_write
 from signorini.output.fields import Fields, State
-from signorini.output.vtu import write_bodies, write_surfaces
+from signorini.output.vtu import FIELDS, write_bodies, write_surfaces
 from signorini.solution.history import History
 from signorini.solution.results import StepResult
 
-FIELDS = "fields"
-"""The folder of the files that are no ends of steps."""
+if TYPE_CHECKING:
+    from signorini.output.rank_files import FieldsOnRanks
 
 MIN_TIME_STEP = 1e-6  # of a step: so far apart are times of states at one load, a jump and where it lands
 
@@ -64,6 +66,7 @@ def write_series(
     surfaces: str = "contact",
     done: Collection[str] = (),
     compress: bool = False,
+    ranks: FieldsOnRanks | None = None,
 ) -> list[str]:
     """Write fields of the bodies and of the contact surfaces, and the lists that ParaView opens.
 
@@ -79,31 +82,59 @@ def write_series(
     bodies, surfaces : how the names of the files begin
     done : names of files that were written before, and are left out
     compress : whether files of bodies are
+    ranks : that write the bodies, each its own file, whose index ``bodies_0001.pvtu`` is listed; None: one process does
 
     Returns
     -------
     Names of the files in the folder, the lists last
     """
     model = fields.model
-    touching = bool(model.contacts)
+    touching, shown = bool(model.contacts), []
     lists: dict[str, list[tuple[float, str]]] = {name: [] for name in (bodies, surfaces)[: 1 + touching]}
-    if touching or not all(frame.last for frame in states):
+    if touching or ranks or not all(frame.last for frame in states):
         (folder / FIELDS).mkdir(exist_ok=True)
     for frame in states:
-        within = f"{frame.step:04d}_{frame.number:04d}.vtu"
-        name = f"{bodies}_{frame.step:04d}.vtu" if frame.last else f"{FIELDS}/{bodies}_{within}"
-        if name not in done:
-            write_bodies(fields.at(frame.state, strained=True), folder / name, compress=compress)
-        lists[bodies].append((frame.time, name))
+        within = f"{frame.step:04d}_{frame.number:04d}"
+        name = f"{bodies}_{frame.step:04d}" if frame.last else f"{FIELDS}/{bodies}_{within}"
+        shown += write_state(fields, frame.state, folder, name, done=done, compress=compress, ranks=ranks)
+        lists[bodies].append((frame.time, shown[-1]))
         if touching:
-            name = f"{FIELDS}/{surfaces}_{within}"
+            name = f"{FIELDS}/{surfaces}_{within}.vtu"
             if name not in done:
                 write_surfaces(model, frame.state.contacts, folder / name)
             lists[surfaces].append((frame.time, name))
     for name, entries in lists.items():
         with atomic_write(folder / f"{name}.pvd") as aside:
             aside.write_text(listed(entries) + "\n", encoding="utf-8")
-    return [*(name for entries in lists.values() for _, name in entries), *(f"{name}.pvd" for name in lists)]
+    return [*shown, *(name for _, name in lists.get(surfaces, ())), *(f"{name}.pvd" for name in lists)]
+
+
+def write_state(
+    fields: Fields,
+    state: State,
+    folder: Path,
+    name: str,
+    *,
+    done: Collection[str] = (),
+    compress: bool = False,
+    ranks: FieldsOnRanks | None = None,
+) -> list[str]:
+    """Write the bodies in one state, unless that was done before; the names of its files, what to open last.
+
+    Parameters
+    ----------
+    fields, state : of the model, and which one
+    folder, name : in which the file is, and how it is called there, without an ending
+    done, compress, ranks : as of :func:`write_series`
+    """
+    if ranks is not None:
+        names = ranks.files(f"{name}.pvtu")
+        if names[-1] not in done:
+            ranks.write(state, folder, f"{name}.pvtu", compress=compress)
+        return names
+    if f"{name}.vtu" not in done:
+        write_bodies(fields.at(state, strained=True), folder / f"{name}.vtu", compress=compress)
+    return [f"{name}.vtu"]
 
 
 def write_pvd(history: History, fields: Fields, path: Path, *, compress: bool = False) -> None:
@@ -120,8 +151,13 @@ def write_pvd(history: History, fields: Fields, path: Path, *, compress: bool = 
         If nothing was solved.
     """
     _ = history.last
-    surfaces = f"{path.stem}_contact"
-    write_series(fields, frames(history), path.parent, bodies=path.stem, surfaces=surfaces, compress=compress)
+    surfaces, ranks = f"{path.stem}_contact", None
+    if history.backend == PETSC:
+        from signorini.output.rank_files import fields_on_ranks
+
+        ranks = fields_on_ranks(history)
+    states, names = frames(history), {"bodies": path.stem, "surfaces": surfaces}
+    write_series(fields, states, path.parent, **names, compress=compress, ranks=ranks)
 
 
 def listed(entries: Sequence[tuple[float, str]]) -> str:

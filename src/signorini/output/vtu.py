@@ -22,6 +22,9 @@ from signorini.solution.surface import arc_length, contact_faces, contact_lines,
 if TYPE_CHECKING:
     import meshio
 
+FIELDS = "fields"
+"""The folder of the files that are no ends of steps, and of those of single ranks."""
+
 _SURFACE_CELLS = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
 
 
@@ -46,13 +49,24 @@ def write_bodies(
     further : point arrays by name, (n,)
     compress : whether the file is to be half as large, which takes several times as long
     """
+    write_grid(grid_of(fields, further), path, compress=compress)
+
+
+def grid_of(fields: BodyFields, further: Mapping[str, Array] | None = None) -> meshio.Mesh:
+    """What :func:`write_bodies` writes.
+
+    Parameters
+    ----------
+    fields : of the bodies
+    further : point arrays by name, (n,)
+    """
     import meshio
 
     complete_meshio()
     rare = {"strain": fields.strain, "worn_depth": fields.depth}
     forces = {"reaction": fields.reaction, "contact_force": fields.contact_force}
     tensors = fields.tensors_in_cells
-    grid = meshio.Mesh(
+    return meshio.Mesh(
         padded(fields.points, 3),
         list(zip(fields.families, fields.cells, strict=True)),
         point_data={
@@ -72,7 +86,6 @@ def write_bodies(
             **_by_name(fields.in_cells),
         },
     )
-    write_grid(grid, path, compress=compress)
 
 
 def _plastic(fields: PlasticFields) -> dict[str, Array]:

@@ -1,0 +1,131 @@
+"""Files of bodies that ranks write are together what one process writes, whatever the cut."""
+
+import errno
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import meshio
+import numpy as np
+import pytest
+
+import signorini as sg
+from signorini.distributed.partition import owners
+from signorini.engine.examine import examine
+from signorini.gallery.sectors import ring_on_shaft
+from signorini.output import rank_files as module
+from signorini.output.fields import Fields
+from signorini.output.folder import write_folder
+from signorini.output.rank_files import FieldsOnRanks, fields_on_ranks
+from signorini.output.series import write_state
+from tests.helpers.fake_ranks import RanksInTurn
+from tests.helpers.on_ranks import MODELS, in_increments
+from tests.helpers.rank_files import assert_whole, sources
+
+RANKS = 3
+
+
+def solved(name, team, monkeypatch, model=None):
+    """A history whose mesh is cut among ranks, as if they had solved it."""
+    model = in_increments(MODELS[name]() if model is None else model)
+    examined = examine(model)
+    monkeypatch.setattr(module, "several_ranks", lambda: team)
+    history = replace(sg.solve(model, backend="multifrontal"), backend="petsc")
+    team.owners[history.model.mesh] = owners(examined.space, examined.interface.B, team.size)
+    return history
+
+
+@pytest.mark.parametrize("name", ["held by contact alone", "mortar", "several steps", "coupled unknowns", "twist"])
+def test_files_of_ranks_are_together_the_file_of_one_process(name, tmp_path, monkeypatch):
+    """Points and cells with all their arrays: averages at nodes take in the cells of other ranks."""
+    team = RanksInTurn(RANKS)
+    history = solved(name, team, monkeypatch)
+    history.write(tmp_path / "whole.vtu")
+    ranks = fields_on_ranks(history)
+    names = write_state(Fields(history.model), history.last, tmp_path, "parts", ranks=ranks)
+    assert names[-1] == "parts.pvtu"
+    files = sources(tmp_path / "parts.pvtu")
+    assert len(files) >= 2
+    assert files == [tmp_path / file for file in names[:-1]]
+    assert_whole(tmp_path / "parts.pvtu", tmp_path / "whole.vtu")
+
+
+def test_paraview_reads_the_index(tmp_path, monkeypatch):
+    pyvista = pytest.importorskip("pyvista")
+    history = solved("held by contact alone", RanksInTurn(RANKS), monkeypatch)
+    history.write(tmp_path / "whole.vtu")
+    whole = pyvista.read(tmp_path / "whole.vtu")
+    write_state(Fields(history.model), history.last, tmp_path, "parts", ranks=fields_on_ranks(history))
+    read = pyvista.read(tmp_path / "parts.pvtu")
+    assert read.n_cells == whole.n_cells
+    assert sorted(read.array_names) == sorted(whole.array_names)
+    assert read.bounds == whole.bounds
+    assert read["von_mises"].max() == pytest.approx(whole["von_mises"].max(), rel=1e-12)
+
+
+def test_a_folder_of_several_steps_lists_the_files_of_ranks(tmp_path, monkeypatch):
+    """In a folder that held the files of more ranks, and of one process; what is there is listed, and nothing else."""
+    folder = tmp_path / "out"
+    many = solved("several steps", RanksInTurn(5), monkeypatch)
+    write_folder(many, folder)
+    write_folder(replace(many, backend="multifrontal"), folder)
+    assert not [*folder.rglob("*.pvtu"), *folder.rglob("*_rank*")]
+    history = solved("several steps", RanksInTurn(2), monkeypatch)
+    assert folder / "solution.pvtu" in write_folder(history, folder)
+    series = ElementTree.parse(folder / "solution.pvd")
+    assert [entry.get("file") for entry in series.iter("DataSet")] == [f"solution_000{k}.pvtu" for k in (1, 2, 3)]
+    assert (folder / "solution.pvtu").read_bytes() == (folder / "solution_0003.pvtu").read_bytes()
+    listed = {file for index in folder.glob("*.pvtu") for file in sources(index)}
+    assert listed == set(folder.glob("fields/*_rank*.vtu"))
+    assert len(listed) == 2 * 3
+    assert not [*folder.glob("solution*.vtu")]
+
+
+def test_a_rank_whose_disk_is_full_says_so(tmp_path, monkeypatch):
+    history = solved("held by contact alone", RanksInTurn(RANKS), monkeypatch)
+    write = module.write_grid
+
+    def full(grid, path, **how):
+        if path.name.endswith("rank1.vtu"):
+            raise OSError(errno.ENOSPC, "No space left on device")
+        write(grid, path, **how)
+
+    monkeypatch.setattr(module, "write_grid", full)
+    with pytest.raises(OSError, match=r"cannot write results into '.*': No space left on device; what it held"):
+        write_folder(history, tmp_path)
+    assert not [file for file in tmp_path.iterdir() if file.name != "fields"]
+
+
+def test_a_rank_without_cells_writes_nothing(tmp_path, monkeypatch):
+    """Two cells, whose first nodes are of the first and the last of three ranks."""
+    team = RanksInTurn(RANKS)
+    history = solved(
+        "cubes",
+        team,
+        monkeypatch,
+        sg.Model(
+            sg.rectangle(width=2.0, height=1.0, nx=2, ny=1),
+            bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.3))],
+            supports=[sg.Support("left", u=(0, 0))],
+            loads=[sg.Load("right", traction=(0.1, 0.0))],
+        ),
+    )
+    mesh = history.model.mesh
+    first = [int(nodes[0]) for cells in mesh.cells.values() for nodes in cells]
+    owner = np.ones(len(mesh.points), dtype=np.int64)
+    owner[first] = [0, 2]
+    ranks = FieldsOnRanks(team, history.model, owner)
+    names = write_state(Fields(history.model), history.last, tmp_path, "parts", ranks=ranks)
+    assert names == ["fields/parts_rank0.vtu", "fields/parts_rank2.vtu", "parts.pvtu"]
+    assert [len(meshio.read(tmp_path / file).cells_dict["quad"]) for file in names[:-1]] == [1, 1]
+
+
+def test_one_process_writes_where_ranks_do_not(monkeypatch):
+    """Of a mesh that was not cut here, and of sectors, whose averages take in cells of the other side."""
+    team = RanksInTurn(RANKS)
+    assert fields_on_ranks(solved("several steps", team, monkeypatch)) is not None
+    assert fields_on_ranks(solved("", team, monkeypatch, ring_on_shaft(whole=False))) is None
+    history = solved("several steps", team, monkeypatch)
+    team.owners.clear()
+    assert fields_on_ranks(history) is None
+    monkeypatch.setattr(module, "several_ranks", lambda: None)
+    assert fields_on_ranks(history) is None
