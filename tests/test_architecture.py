@@ -101,8 +101,9 @@ ALLOWED = {
     "solved": BELOW_CLI | {"history_fields"},
     "api": BELOW_CLI | {"solved"},
     "prepared": BELOW_CLI | {"api", "solved"},
-    "__init__": BELOW_CLI | {"solved", "api", "prepared", "gallery", "verify", "bench"},
-    "cli": BELOW_CLI | {"api", "gallery", "verify", "bench", "__init__"},
+    "study": BELOW_CLI,
+    "__init__": BELOW_CLI | {"solved", "api", "prepared", "study", "gallery", "verify", "bench"},
+    "cli": BELOW_CLI | {"api", "study", "gallery", "verify", "bench", "__init__"},
     "__main__": {"cli"},
 }
 # narrower than a folder: stresses are for pictures and files, assembly, supports and flow rules are not

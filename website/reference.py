@@ -19,6 +19,8 @@ from signorini.output.result_table import ResultTable
 from signorini.prepared import PreparedModel
 from signorini.solution.certificate import Certificate
 from signorini.solution.results import ContactResult, StepResult
+from signorini.study.row import StudyRow
+from signorini.study.sweep import Sweep
 
 PAGES = {
     "Models": ("Model", "Body", "Elastic", "Orthotropic", "Plastic", "Step", "SolverSettings", "Fatigue"),
@@ -35,7 +37,8 @@ PAGES = {
         *("mesh_profile", "mesh_surface", "read_profile", "read_surface", "read_values"),
     ),
     "Solving": (
-        *("check", "solve", "threads", "prepare", "PreparedModel", "read", "load", "natural_modes", "joint_damping"),
+        *("check", "solve", "threads", "prepare", "PreparedModel", "sweep", "Sweep", "StudyRow", "read", "load"),
+        *("natural_modes", "joint_damping"),
     ),
     "Results": ("Solution", "HistoryMoment", "ResultTable", "StepResult", "ContactResult", "Certificate"),
     "Errors": ("SignoriniError", "InputError", "SolveFailed", "Interrupted"),
@@ -45,7 +48,17 @@ PAGES = {
 }
 """Title of a page to what it holds; what `signorini` exports and no page names goes onto a last one."""
 
-RETURNED = (PreparedModel, Certificate, ContactResult, HistoryMoment, ResultTable, StepResult, sg.Solution)
+RETURNED = (
+    PreparedModel,
+    Certificate,
+    ContactResult,
+    HistoryMoment,
+    ResultTable,
+    StepResult,
+    StudyRow,
+    Sweep,
+    sg.Solution,
+)
 """Classes that nobody makes but everybody gets."""
 
 INSIDE = {kind.__name__: kind for kind in RETURNED}

@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from signorini.prepared import prepare
     from signorini.settings import SolverSettings
     from signorini.solved import Solution
+    from signorini.study.sweep import sweep
     from signorini.vibration.damping import joint_damping
     from signorini.vibration.modes import natural_modes
 
@@ -148,6 +149,7 @@ __all__ = [
     "section",
     "solve",
     "stress",
+    "sweep",
     "threads",
     "torch",
     "traction",
@@ -205,6 +207,7 @@ _HOMES = {
     "signorini.prepared": ("prepare",),
     "signorini.settings": ("SolverSettings",),
     "signorini.solved": ("Solution",),
+    "signorini.study.sweep": ("sweep",),
     "signorini.vibration.damping": ("joint_damping",),
     "signorini.vibration.modes": ("natural_modes",),
 }

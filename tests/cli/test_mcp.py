@@ -50,7 +50,15 @@ def conversation(server, *questions):
         answers = []
         async with mcp.Client(server) as client:
             tools = await client.list_tools()
-            assert {tool.name for tool in tools.tools} == {"check", "run", "report", "plot", "explain", "schema"}
+            assert {tool.name for tool in tools.tools} == {
+                "check",
+                "run",
+                "sweep",
+                "report",
+                "plot",
+                "explain",
+                "schema",
+            }
             for name, arguments in questions:
                 found = await client.call_tool(name, arguments)
                 assert not found.is_error, found
@@ -107,13 +115,14 @@ def here(monkeypatch):
 @pytest.mark.slow
 def test_an_agent_checks_solves_and_sees_a_deck(here, deck, tmp_path):
     folder = str(tmp_path / "out")
-    understood, solved, drawn, undrawn, page = conversation(
+    understood, solved, drawn, undrawn, page, swept = conversation(
         here,
         ("check", {"deck": str(deck)}),
         ("run", {"deck": str(deck), "folder": folder}),
         ("plot", {"folder": folder, "what": "stress", "choices": {"component": "yy", "step": 1, "range": [-5, 0]}}),
         ("plot", {"folder": folder, "what": "stresses"}),
         ("report", {"folder": folder}),
+        ("sweep", {"deck": str(deck), "values": {"load.top": "1,2"}, "folder": str(tmp_path / "sweep")}),
     )
     assert understood["found"]["contacts"][0]["pairs"] == 2
     assert "certificate passed" in solved["found"]
@@ -122,6 +131,8 @@ def test_an_agent_checks_solves_and_sees_a_deck(here, deck, tmp_path):
     assert json.loads(drawn[0].text)["meaning"].startswith("Done")
     assert drawn[1].mime_type == "image/png"
     assert len(undrawn) == 1
+    assert swept["exit_code"] == 0
+    assert swept["found"].count("certified") == 2
     assert "invalid choice: 'stresses'" in json.loads(undrawn[0].text)["message"]
     assert Path(page["found"]).read_text().startswith("<!doctype html>")
 

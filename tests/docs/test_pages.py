@@ -74,7 +74,7 @@ def test_the_code_of_readme_is_its_deck():
 
 def test_commands_of_readme_run(capsys):
     names = {command.split()[0] for command in COMMANDS}
-    assert names == {"check", "run", "explain", "plot", "report", "doctor", *SUITES}
+    assert names == {"check", "run", "sweep", "explain", "plot", "report", "doctor", *SUITES}
     for command in COMMANDS:
         if command.split()[0] not in SUITES:
             assert main(shlex.split(command)) == 0, capsys.readouterr()

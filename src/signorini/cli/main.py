@@ -22,6 +22,7 @@ _MEMORY_ADVICE = "expected a coarser mesh, --backend iterative, or more memory"
 
 _COMMANDS = {
     "signorini.cli.deck_commands": ("run", "modes", "sensitivities", "check", "convert"),
+    "signorini.cli.sweep_command": ("sweep",),
     "signorini.cli.result_commands": ("diff", "plot", "report", "table"),
     "signorini.cli.fatigue_command": ("fatigue",),
     "signorini.cli.word_commands": ("schema", "explain"),

@@ -86,6 +86,29 @@ async def run(
 
 
 @server.tool(annotations=_WRITES)
+async def sweep(
+    deck: Deck,
+    values: Annotated[dict[str, str], Field(description="key to 'FROM:TO:NUMBER' or values between commas")],
+    context: Context,
+    folder: Annotated[str, Field(description="where the table goes, and a sweep goes on; empty: out/DECK_sweep")] = "",
+    allow: Allowed = (),
+) -> dict[str, Any]:
+    """Solve a deck with all combinations of values of some keys, as friction.CONTACT, load.NAME (a factor) or mesh.nx.
+
+    `found` is the table; all answers are in sweep.csv of the folder.
+
+    Parameters
+    ----------
+    deck, values, folder, allow : as of `signorini sweep`
+    context : of the request, which is told how many rows are solved
+    """
+    place = Path(folder) if folder else Path("out", f"{Path(deck).stem}_sweep")
+    asked = [f"--set={key}={given}" for key, given in values.items()]
+    answer = await _answer("sweep", "-o", str(place), *asked, *_allowing(allow), "--", deck, context=context)
+    return answer | {"folder": str(place)}
+
+
+@server.tool(annotations=_WRITES)
 async def report(folder: Folder) -> dict[str, Any]:
     """Write all results as one HTML page; `found` is its path."""
     return await _answer("report", "--", folder)

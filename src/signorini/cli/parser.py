@@ -37,6 +37,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     _add_run(commands, [shared, keywords])
+    _add_sweep(commands, [shared, keywords])
     _add_modes(commands, [shared, keywords])
     _add_sensitivities(commands, [shared, keywords])
 
@@ -116,6 +117,30 @@ def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
     words = "of the factorisation, 'iterative', or 'petsc', which mpiexec runs on several ranks (default: auto)"
     run.add_argument("--backend", default="auto", metavar="NAME", help=words)
     _add_threads(run)
+
+
+def _add_sweep(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
+    sweep = commands.add_parser("sweep", parents=parents, help="solve a deck with many values of what it says")
+    sweep.add_argument("deck", metavar="DECK", help="a TOML file, or an Abaqus or CalculiX deck (.inp)")
+    sweep.add_argument(
+        "--set",
+        action="append",
+        required=True,
+        metavar="KEY=VALUES",
+        help="FROM:TO:NUMBER, or values between commas; KEY as friction.CONTACT, load.NAME (a factor), E.BODY, or of a "
+        "TOML deck any key, as mesh.nx; again for more of them: all combinations",
+    )
+    sweep.add_argument(
+        "-o", dest="folder", metavar="DIR", help="folder; a sweep goes on from what is there (default: out/DECK_sweep)"
+    )
+    sweep.add_argument("--results", action="store_true", help="write a result folder for each row, too")
+    words = "that share the rows (default: 1, and if that takes long the physical cores over the threads)"
+    sweep.add_argument("--processes", type=int, metavar="N", help=words)
+    sweep.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    sweep.add_argument("--json", action="store_true", help="print the rows as JSON instead of a table")
+    words = "of the factorisation, 'iterative', or 'petsc', which takes all ranks of mpiexec for one row"
+    sweep.add_argument("--backend", default="auto", metavar="NAME", help=words)
+    _add_threads(sweep)
 
 
 def _add_sensitivities(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:

@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import Any
 
 from signorini.checks import text
+from signorini.deck.changes import changed
 from signorini.deck.deck import Deck, located_error
 from signorini.deck.error import DeckError
 from signorini.deck.inp.build import read_deck
@@ -66,12 +67,14 @@ def load_deck(
     deck_increments: bool = False,
     allow: Iterable[str | Path] = (),
     include: Iterable[str | Path] = (),
+    changes: Mapping[Where, Any] | None = None,
 ) -> Deck:
     """Read a deck and keep its lines, so that errors found later can be told with theirs.
 
     Parameters
     ----------
     path, small_strain, deck_increments, allow, include : as :func:`read` has them
+    changes : path of a key to the value that a TOML deck has in place of its own
     """
     path = Path(path)
     reach = Reach.of(path, allow, include)
@@ -79,7 +82,7 @@ def load_deck(
         return read_deck(path, reach, small_strain=small_strain, deck_increments=deck_increments)
     data, lines = parse(path)
     try:
-        return _deck(data, path, lines, reach)
+        return _deck(changed(data, changes) if changes else data, path, lines, reach)
     except DeckError:
         raise
     except InputError as error:
