@@ -25,6 +25,7 @@ CASES = (
     scalar.scalar_signorini,
     solids.hollow,
     plasticity.hills_tube,
+    plasticity.hills_tube_of_other_cells,
     footings.flat_punch,
     plasticity.yielding_press_fits,
     plasticity.bending,

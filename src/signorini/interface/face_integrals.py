@@ -41,13 +41,11 @@ class FacePieces(NamedTuple):
     corners : (p, 3 or 4, 3) of the pieces, piece after piece of every face
     nodes : (m, c, 3) of the faces
     places : (s, 3 or 4, 2) reference coordinates of the pieces of a face
-    smooth : the surfaces that the faces stand for
     """
 
     corners: Array
     nodes: Array
     places: Array
-    smooth: Smooth
 
 
 class PiecePairs(NamedTuple):
@@ -81,13 +79,11 @@ class Sums(NamedTuple):
     ----------
     mass, own : ``int N N``, (m, corners, corners), and ``int N N_j n``, (m, corners, c, 3)
     other : ``int N N_l n`` of every pair, (k, corners, c of the mortar faces, 3)
-    over : ``int N (g - g_faces)``, (m, corners)
     """
 
     mass: Array
     own: Array
     other: Array
-    over: Array
 
 
 class _Points(NamedTuple):
@@ -159,7 +155,7 @@ def _gather(pairs: PiecePairs, k: int, rule: Rule, sight: Sight, points: _Points
 
 
 @kernel()
-def integrate(pairs: PiecePairs, rule: Rule, gap_rule: Rule, sums: Sums) -> None:
+def integrate(pairs: PiecePairs, rule: Rule, sums: Sums) -> None:
     """Add up integrals over the common parts of pairs of pieces.
 
     The functions of both faces are taken at the same Gauss points. The area and its outward normal n are those of the
@@ -168,15 +164,12 @@ def integrate(pairs: PiecePairs, rule: Rule, gap_rule: Rule, sums: Sums) -> None
     Parameters
     ----------
     pairs : of pieces
-    rule : of the forces
-    gap_rule : of what gaps between the surfaces that faces stand for, interpolated as displacements are, are larger
-        than those of the faces; of no use where both are flat
+    rule : of the quadrature
     sums : added to
     """
     first, second = pairs.first, pairs.second
     c, own, other = first.corners.shape[1], first.nodes.shape[1], second.nodes.shape[1]
-    curved = first.smooth.curved or second.smooth.curved
-    sight, points = make_sight(), _make_points(max(len(rule.weights), len(gap_rule.weights)))
+    sight, points = make_sight(), _make_points(len(rule.weights))
     hats, N, M, normals = points.hats, points.N, points.M, points.normals
     for k in range(len(pairs.i)):
         face = pairs.i[k] // len(first.places)
@@ -191,39 +184,47 @@ def integrate(pairs: PiecePairs, rule: Rule, gap_rule: Rule, sums: Sums) -> None
                         keeps[e, f, d] += force * N[q, f]
                     for f in range(other):
                         gives[e, f, d] += force * M[q, f]
-        if curved:
-            count = _gather(pairs, k, gap_rule, sight, points)
-            _widen(pairs, k, count, sight.axes[2], points, sums.over[face])
-
-
-@part()
-def _widen(pairs: PiecePairs, k: int, count: int, sight: Array, points: _Points, over: Array) -> None:
-    """Add up what the gap between the surfaces of a pair's faces, interpolated as displacements are, is larger than
-    that of the faces.
-    """
-    first, second, own, other = pairs.first, pairs.second, pairs.first.smooth, pairs.second.smooth
-    i, j = pairs.i[k] // len(first.places), pairs.j[k] // len(second.places)
-    nodes, opposite, spare = first.nodes[i], second.nodes[j], np.empty((2, 3))
-    there, way = np.empty(3), np.empty((2, 3))
-    for q in range(count):
-        point, N, M = points.points[q], points.N[q], points.M[q]
-        distance, lean, across = 0.0, 0.0, 0.0
-        point_at(opposite, M, there)
-        for e in range(3):
-            distance += (there[e] - point[e]) * sight[e]
-            across += points.normals[q, e] * sight[e]
-        for a in range(len(nodes)):
-            lean += N[a] * own.lean[i, a]
-        for e in range(3):
-            there[e], spare[0, e] = point[e] + distance * sight[e], -sight[e]
-        gap = distance - rise(own, i, point, N, sight, spare[1]) - rise(other, j, there, M, spare[0], spare[1])
-        gap += bow(own, i, other, j, nodes, point, N, way) + bow(other, j, own, i, opposite, there, M, way)
-        for e in range(over.shape[0]):
-            over[e] += points.hats[q, e] * across * (lean * gap - distance)
 
 
 @kernel()
-def spread_gaps(pairs: PiecePairs, ends: Array, low: Array, high: Array) -> None:
+def widen(pairs: PiecePairs, own: Smooth, other: Smooth, rule: Rule, over: Array) -> None:
+    """Add up ``int N (g - g_faces)``: by how much gaps between surfaces, interpolated as displacements are, are larger
+    than those of the faces that stand for them.
+
+    Parameters
+    ----------
+    pairs : of pieces
+    own, other : the surfaces that the nonmortar and the mortar faces stand for
+    rule : of the quadrature
+    over : (m, corners), added to
+    """
+    first, second = pairs.first, pairs.second
+    c, corners = first.nodes.shape[1], over.shape[1]
+    sight, points, spare = make_sight(), _make_points(len(rule.weights)), np.empty((2, 3))
+    there, way, axis = np.empty(3), np.empty((2, 3)), sight.axes[2]
+    at, hats, shapes_1, shapes_2, normals = points.points, points.hats, points.N, points.M, points.normals
+    for k in range(len(pairs.i)):
+        i, j = pairs.i[k] // len(first.places), pairs.j[k] // len(second.places)
+        nodes, opposite = first.nodes[i], second.nodes[j]
+        for q in range(_gather(pairs, k, rule, sight, points)):
+            point, N, M = at[q], shapes_1[q], shapes_2[q]
+            distance, lean, across = 0.0, 0.0, 0.0
+            point_at(opposite, M, there)
+            for e in range(3):
+                distance += (there[e] - point[e]) * axis[e]
+                across += normals[q, e] * axis[e]
+            for a in range(c):
+                lean += N[a] * own.lean[i, a]
+            for e in range(3):
+                there[e], spare[0, e] = point[e] + distance * axis[e], -axis[e]
+            gap = distance - rise(own, i, point, N, axis, spare[1]) - rise(other, j, there, M, spare[0], spare[1])
+            gap += bow(own, i, other, j, nodes, point, N, way) + bow(other, j, own, i, opposite, there, M, way)
+            for e in range(corners):
+                over[i, e] += hats[q, e] * across * (lean * gap - distance)
+
+
+@kernel()
+def spread_gaps(pairs: PiecePairs, own: Smooth, other: Smooth, ends: Array, low: Array, high: Array) -> None:
     """Distances to the other side at the corners of faces, and the smallest and largest on each of them.
 
     Between the surfaces that the faces stand for, along the normal of the pair; measured at the corners and in the
@@ -232,10 +233,11 @@ def spread_gaps(pairs: PiecePairs, ends: Array, low: Array, high: Array) -> None
     Parameters
     ----------
     pairs : of pieces
+    own, other : the surfaces that the nonmortar and the mortar faces stand for
     ends : (m, corners), lowered where a corner of the face is opposite the other side, length
     low, high : (m,), lowered and raised
     """
-    first, second, own, other = pairs.first, pairs.second, pairs.first.smooth, pairs.second.smooth
+    first, second = pairs.first, pairs.second
     c, o, nodes, s_1, s_2 = (
         ends.shape[1],
         second.corners.shape[1],

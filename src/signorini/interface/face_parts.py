@@ -14,9 +14,10 @@ from signorini.fem.facets import facet_pieces, gauss_rule
 from signorini.interface.clip import overlap_areas
 from signorini.interface.common_parts import CommonParts, Opposite
 from signorini.interface.coupling import FacetGaps
-from signorini.interface.face_integrals import FacePieces, PiecePairs, Rule, Sums, integrate, spread_gaps
+from signorini.interface.face_integrals import FacePieces, PiecePairs, Rule, Sums, integrate, spread_gaps, widen
 from signorini.interface.facing import near_pairs, nearest_layers, piece_normals, piece_spans
 from signorini.interface.fitting import smooth_surfaces
+from signorini.interface.smooth import Smooth
 from signorini.interface.tilt import normals_between, turning_angles
 
 _DEGREE = {3: 1, 4: 2, 6: 2, 8: 3, 9: 4}  # of the shape functions, by nodes of a face
@@ -25,10 +26,11 @@ _RATIONAL_POINTS = 8  # of Gauss a direction where functions are no polynomials:
 
 
 class _Kind(NamedTuple):
-    """Faces of one kind, their pieces, the normals of these and by how much the side turns at them."""
+    """Faces of one kind, their pieces, what they stand for, normals of pieces and how far the side turns at them."""
 
     block: FacetBlock
     pieces: FacePieces
+    smooth: Smooth
     normals: Array
     turn: Array
 
@@ -66,7 +68,8 @@ def _kinds(side: Boundary) -> list[_Kind]:
     for block, smooth in zip(side.blocks, smooth_surfaces(side.blocks), strict=True):
         corners, places = block.plane_pieces, facet_pieces(block.count)
         turn = np.repeat(turning_angles(block.normals, side.at_facets(block)), len(places))
-        found.append(_Kind(block, FacePieces(corners, block.points, places, smooth), piece_normals(corners), turn))
+        pieces = FacePieces(corners, block.points, places)
+        found.append(_Kind(block, pieces, smooth, piece_normals(corners), turn))
     return found
 
 
@@ -76,16 +79,18 @@ def _parts_of(one: _Kind, others: list[_Kind], share: float, search: float) -> C
     normals = _between(one, seen, share)
     if (normals != one.normals).any():
         seen = _opposite(one, others, near, normals, search)
-    block, gap_rule = one.block, _rule(_GAP_POINTS)
+    block = one.block
     m, c = block.corner_nodes.shape
     mass, own, over = np.zeros((m, c, c)), np.zeros((m, c, block.count, 3)), np.zeros((m, c))
     ends, low, high = np.full((m, c), np.inf), np.full(m, np.inf), np.full(m, -np.inf)
     opposite = []
     for other, i, j, _ in seen:
         pairs = PiecePairs(one.pieces, other.pieces, normals, i, j)
-        spread_gaps(pairs, ends, low, high)
+        spread_gaps(pairs, one.smooth, other.smooth, ends, low, high)
         gives = np.zeros((len(i), c, other.block.count, 3))
-        integrate(pairs, _rule(_points(block, other.block)), gap_rule, Sums(mass, own, gives, over))
+        integrate(pairs, _rule(_points(block, other.block)), Sums(mass, own, gives))
+        if one.smooth.curved or other.smooth.curved:
+            widen(pairs, one.smooth, other.smooth, _rule(_GAP_POINTS), over)
         opposite.append(Opposite(first=i // one.each, nodes=other.block.facets[j // other.each], other=gives))
     met = low <= high
     return CommonParts(
@@ -95,7 +100,7 @@ def _parts_of(one: _Kind, others: list[_Kind], share: float, search: float) -> C
         over=over,
         opposite=tuple(opposite),
         gaps=FacetGaps(corners=block.corner_nodes[met], ends=ends[met], low=low[met], high=high[met]),
-        curved=any(kind.pieces.smooth.curved for kind in (one, *others)),
+        curved=any(kind.smooth.curved for kind in (one, *others)),
     )
 
 

@@ -17,10 +17,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.compilation import kernel
+from signorini.compilation import kernel, part
 
 _LEAST_ROOT = 0.5  # least 1 - 2 k b: beyond it a surface has turned too far from its facet to be one over it
 
@@ -54,7 +53,7 @@ class Smooth(NamedTuple):
     curved: bool
 
 
-@njit(cache=True, inline="always")
+@part()
 def _height(surface: Smooth, i: int, point: Array, gradient: Array) -> float:
     """Height of surface i over a point, along the facet's normal; its slopes into ``gradient``."""
     d, b = len(point), surface.level[i]
@@ -69,7 +68,7 @@ def _height(surface: Smooth, i: int, point: Array, gradient: Array) -> float:
     return z
 
 
-@njit(cache=True, inline="always")
+@part()
 def rise(surface: Smooth, i: int, point: Array, shapes: Array, sight: Array, gradient: Array) -> float:
     """How far the smooth surface is in front of facet i, from a point of it along a unit vector.
 
@@ -89,7 +88,7 @@ def rise(surface: Smooth, i: int, point: Array, shapes: Array, sight: Array, gra
     return up / max(cosine, _LEAST_ROOT)
 
 
-@njit(cache=True, inline="always")
+@part()
 def bow(one: Smooth, i: int, two: Smooth, j: int, nodes: Array, point: Array, shapes: Array, way: Array) -> float:
     """What interpolation on facet i adds to a gap, so far as its surface bends more than that of facet j opposite.
 

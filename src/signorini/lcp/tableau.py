@@ -127,12 +127,16 @@ class Tableau:
         entering : the variable that enters first
         limit, tolerances, theta_stays : see ``lcp.walk.walk``
         """
-        from signorini.lcp.walk import walk  # Numba takes longer to import than most problems to solve
+        # Numba takes longer to import than most problems to solve
+        from signorini.compilation import interpreted
+        from signorini.lcp.walk import least_lexicographic, walk
 
         arrays = DelayedTableau(
             self.T, self._U, self._V, self.basic, self.nonbasic, self.column_of, self.row_of, self._rows
         )
-        reason, entering, row, pivots = walk(arrays, entering, limit, theta_stays, tolerances)
+        # a single row is in the order of Fortran and of C, another type of array for which Numba would compile anew
+        with interpreted((walk, least_lexicographic) if self.n == 1 else ()):
+            reason, entering, row, pivots = walk(arrays, entering, limit, theta_stays, tolerances)
         if pivots:
             dgemm(-1.0, self._U[:, :pivots], self._V[:pivots].T, 1.0, self.T, trans_b=True, overwrite_c=True)
         return reason, entering, row, pivots

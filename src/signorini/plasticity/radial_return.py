@@ -214,7 +214,7 @@ def _without_back_stresses(laws: YieldLaws, body: IntArray, level: Array, old: P
             plastic[i, c] = before[i, c] + length * way * (1.0 if c < 3 else 2.0)
 
 
-@njit(cache=True, inline="always", error_model="numpy")
+@part()
 def respond_at(
     laws: YieldLaws,
     body: int,
