@@ -2,18 +2,22 @@
 """Bodies on the ranks of MPI: what conjugate gradients grow by, how work and memory are shared, and the same answers.
 
 Two cubes whose meshes do not match, solved in one process and by the back end 'petsc' on 1, 2 and 4 ranks. Counts and
-operations say how work grows and is shared whatever else the machine does; times on two cores would not. Needs
-petsc4py, mpi4py and mpiexec.
+operations say how work grows and is shared whatever else the machine does; times on two cores would not. With
+``--memory`` what ranks hold of bodies and results, in kB a node. Needs petsc4py, mpi4py and mpiexec.
 
-usage: python -m benchmarks.distributed [--small]
+usage: python -m benchmarks.distributed [--small] [--memory]
 """
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import subprocess
 import sys
+import tempfile
+import tracemalloc
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,6 +29,7 @@ from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cubes import cubes
 from signorini.memory import peak_memory
+from signorini.output.folder import write_folder
 
 RANKS = (1, 2, 4)
 PAGE = page.PAGE.parent / "distributed.md"
@@ -79,6 +84,55 @@ def measured(lower: int, upper: int) -> dict[str, Any]:
     }
 
 
+def traced(team: Team) -> tuple[int, int]:
+    """Bytes of Python's and NumPy's objects now, and the most since the last call; not those of PETSc."""
+    del team
+    gc.collect()
+    if not tracemalloc.is_tracing():
+        tracemalloc.start()
+    found = tracemalloc.get_traced_memory()
+    tracemalloc.reset_peak()
+    return found
+
+
+def held(lower: int, upper: int) -> dict[str, Any]:
+    """What the first rank and the others hold of a model and its results, bytes a node."""
+    team = the_team()
+    with tempfile.TemporaryDirectory() as folder:
+        solve_prepared(prepare(cubes(2, 2), backend="petsc"))  # what is loaded and compiled once
+        write_folder(solve_prepared(prepare(cubes(2, 2), backend="petsc")), Path(folder, "small"))
+        before = team.everywhere(traced)
+        model = cubes(lower, upper)
+        prepared = prepare(model, backend="petsc")
+        made = team.everywhere(traced)
+        history = solve_prepared(prepared)
+        del prepared
+        solved = team.everywhere(traced)
+        write_folder(history, Path(folder, "large"))
+        written = team.everywhere(traced)
+    nodes = len(model.mesh.points)
+
+    def first_and_others(now: list[tuple[int, int]], what: int, beside: list[tuple[int, int]]) -> list[float]:
+        found = [(one[what] - other[0]) / nodes for one, other in zip(now, beside, strict=True)]
+        return [found[0], max(found[1:], default=0.0)]
+
+    return {
+        "nodes": nodes,
+        "mesh and pieces": first_and_others(made, 0, before),
+        "to cut": first_and_others(made, 1, before),
+        "to solve": first_and_others(solved, 1, before),
+        "history": first_and_others(solved, 0, before),
+        "to write": first_and_others(written, 1, solved),
+    }
+
+
+def memory_row(ranks: int, found: dict[str, Any]) -> list[object]:
+    """A line of the table of memory, kB a node."""
+    parts = [found[name] for name in ("mesh and pieces", "to cut", "to solve", "history", "to write")]
+    shown = [f"{first / 1e3:.2f}, {others / 1e3:.2f}" if ranks > 1 else f"{first / 1e3:.2f}" for first, others in parts]
+    return [f"{found['nodes']}", ranks, *shown]
+
+
 def row(ranks: int, found: dict[str, Any]) -> list[object]:
     """A line of the table."""
     return [
@@ -96,6 +150,16 @@ def row(ranks: int, found: dict[str, Any]) -> list[object]:
         f"{found['apart']:.0e}",
     ]
 
+
+MEMORY_HEAD = [
+    "nodes",
+    "ranks",
+    "bodies and pieces",
+    "most up to there",
+    "most while it is solved",
+    "the history",
+    "most beside it for the files",
+]
 
 HEAD = [
     "unknowns",
@@ -116,24 +180,31 @@ HEAD = [
 def main() -> None:
     parser = command.parser(__doc__, dry=True)
     parser.add_argument("--small", action="store_true", help="sizes that take seconds")
+    parser.add_argument("--memory", action="store_true", help="what ranks hold, in place of counts and work")
     parser.add_argument("--one", nargs=2, type=int, metavar="N", help="measure cubes of so many cells on these ranks")
     options = parser.parse_args()
     if options.one:
         with sg.ranks() as first:
             if first:
-                print(json.dumps(measured(*options.one)))
+                print(json.dumps((held if options.memory else measured)(*options.one)))
         return
-    rows = []
-    for lower, upper in ((5, 4), (8, 7)) if options.small else ((7, 6), (10, 9), (14, 12)):
-        for ranks in RANKS:
-            words = ["mpiexec", "-n", str(ranks), sys.executable, "-m", "benchmarks.distributed", "--one"]
-            environment = {**os.environ, **page.ONE_THREAD, **ROOT_AND_FEW_CORES}
-            done = subprocess.run(
-                [*words, str(lower), str(upper)], check=True, stdout=subprocess.PIPE, text=True, env=environment
-            )
-            rows.append(row(ranks, json.loads(done.stdout)))
-    text = page.table(HEAD, rows)
-    command.publish(options, "distributed", text, PAGE)
+    if options.memory:
+        sizes = ((5, 4),) if options.small else ((8, 7), (14, 12))
+        rows = [memory_row(ranks, on_ranks(ranks, size, "--memory")) for size in sizes for ranks in RANKS]
+        command.publish(options, "memory of ranks", page.table(MEMORY_HEAD, rows), PAGE)
+        return
+    sizes = ((5, 4), (8, 7)) if options.small else ((7, 6), (10, 9), (14, 12))
+    rows = [row(ranks, on_ranks(ranks, size)) for size in sizes for ranks in RANKS]
+    command.publish(options, "distributed", page.table(HEAD, rows), PAGE)
+
+
+def on_ranks(ranks: int, size: tuple[int, int], *further: str) -> dict[str, Any]:
+    """What ranks print that measure cubes of so many cells."""
+    words = ["mpiexec", "-n", str(ranks), sys.executable, "-m", "benchmarks.distributed", *further, "--one"]
+    environment = {**os.environ, **page.ONE_THREAD, **ROOT_AND_FEW_CORES}
+    done = subprocess.run([*words, *map(str, size)], check=True, stdout=subprocess.PIPE, text=True, env=environment)
+    found: dict[str, Any] = json.loads(done.stdout)
+    return found
 
 
 if __name__ == "__main__":

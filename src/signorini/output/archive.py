@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 _FORMAT, _OLDER = "signorini archive 7", ("signorini archive 6", "signorini archive 5", "signorini archive 4")
 _STRUCTURE, _END = "structure", "end"  # the text, and what is another one after every step
 _SEAL_SIZE = 512  # bytes: the smallest user block that HDF5 has
+_AT_ONCE = 1 << 20  # bytes that are read for the digest, and held
 _MIN_COMPRESSED = 65536  # bytes: smaller arrays are not worth compressing
 
 
@@ -104,7 +105,7 @@ def _seal(file: IO[bytes], format_name: str) -> bytes:
     """A digest of the name of the format and of what follows the user block, in letters."""
     found = hashlib.blake2b(format_name.encode(), digest_size=32)
     file.seek(_SEAL_SIZE)
-    for part in iter(lambda: file.read(2**24), b""):
+    for part in iter(lambda: file.read(_AT_ONCE), b""):
         found.update(part)
     return found.hexdigest().encode()
 
