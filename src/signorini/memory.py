@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import sys
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 from signorini.errors import InputError, Where
@@ -20,6 +22,8 @@ _GROUP_FILES = {
     "memory": ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
 }
 """Limit and use of a control group, and in ``memory.stat`` what of it is cached files that give way."""
+
+_WAYS_OUT = "expected a coarser mesh, more memory, or in space back end 'iterative'"
 
 
 def peak_memory() -> int:
@@ -89,6 +93,28 @@ def _in_groups() -> Iterator[int]:
                 pass
             if folder == root:
                 break
+
+
+def give_memory_back() -> None:
+    """Let the system have memory that was freed and that the C library keeps; nothing where it keeps none for good.
+
+    Between one large phase and the next a tenth of all that a process holds may be such memory.
+
+    >>> give_memory_back()
+    """
+    with suppress(AttributeError, OSError, TypeError):  # of glibc alone
+        ctypes.CDLL(None).malloc_trim(0)
+
+
+def out_of_memory(error: MemoryError) -> str:
+    """What did not fit, what was held, what is free, and ways out.
+
+    >>> out_of_memory(MemoryError("an array"))  # doctest: +ELLIPSIS
+    "out of memory (an array): ... GB were held, ... GB are free; expected a coarser mesh, ..."
+    """
+    held, free = (f"{size / 1e9:.3g} GB" for size in (peak_memory(), available_memory()))
+    asked = f" ({error})" if str(error) else ""
+    return f"out of memory{asked}: {held} were held, {free} are free; {_WAYS_OUT}"
 
 
 def check_memory(size: float, what: str, where: Where = ()) -> None:

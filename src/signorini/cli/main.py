@@ -18,8 +18,6 @@ from signorini.cores import threads
 from signorini.distributed.ranks import PETSC, whole_team
 from signorini.errors import InputError, SolveFailed
 
-_MEMORY_ADVICE = "expected a coarser mesh, --backend iterative, or more memory"
-
 _COMMANDS = {
     "signorini.cli.deck_commands": ("run", "modes", "sensitivities", "check", "convert"),
     "signorini.cli.sweep_command": ("sweep",),
@@ -95,11 +93,9 @@ def _run(given: Sequence[str]) -> int:
     except MemoryError as error:  # more than was estimated, or a mesh beyond all estimates
         if options.debug:
             traceback.print_exc()
-        from signorini.memory import available_memory, peak_memory
+        from signorini.memory import out_of_memory
 
-        held, free = (f"{size / 1e9:.3g} GB" for size in (peak_memory(), available_memory()))
-        asked = f" ({error})" if str(error) else ""
-        return _say(f"signorini: out of memory{asked}: {held} were held, {free} are free; {_MEMORY_ADVICE}", FAILED)
+        return _say(f"signorini: {out_of_memory(error)}", FAILED)
     except Exception as error:  # the last resort: a user never sees a traceback unasked
         if options.debug:
             traceback.print_exc()

@@ -26,6 +26,9 @@ from signorini.interface.sliding import sliding_unknowns
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.memory import give_memory_back
+
+_LARGE = 5_000_000  # entries of K from which memory is worth the milliseconds that it takes to give it back
 
 
 def free_bodies(examined: Examined, K: sp.csr_array) -> FreeBodies:
@@ -62,6 +65,10 @@ def condense_bodies(
         Where something moves without resistance, or contact hardly holds a body.
     """
     rigid = (examined.motions @ examined.floating)[examined.constraints.leaders]
+    if not (examined.model.slides or examined.model.wears):  # neither looks for facets again
+        examined.space.forget_facets()
+    if bodies.K.nnz > _LARGE:
+        give_memory_back()
     try:
         return condense(
             bodies,

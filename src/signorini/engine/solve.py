@@ -38,6 +38,7 @@ from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import pairs_of
 from signorini.linalg.threads import one_thread
+from signorini.memory import out_of_memory
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
 from signorini.outcome import Outcome
@@ -77,7 +78,10 @@ def solve(
     """
     # a tape and well-posedness ask for the condensed interface, and in the plane it is always cheaper
     saves = model.dimension == 3 and tape is None and not wellposed
-    prepared = prepare(model, start=start, backend=backend, settings=settings, clock=clock, saves=saves)
+    try:
+        prepared = prepare(model, start=start, backend=backend, settings=settings, clock=clock, saves=saves)
+    except MemoryError as error:
+        raise SolveFailed(out_of_memory(error), status=Outcome.NOT_FOUND) from None
     return solve_prepared(
         prepared, start=start, raise_on_failure=raise_on_failure, wellposed=wellposed, after_step=after_step, tape=tape
     )
@@ -235,14 +239,16 @@ def _follow(
             if after_step is not None and len(steps) < len(schedule):
                 words = f"{len(steps)} of {len(schedule)} steps are finished"
                 after_step(_history(prepared, Outcome.RUNNING, words, steps, end, first))
-    except (SolveFailed, KeyboardInterrupt) as stop:
+    except (SolveFailed, KeyboardInterrupt, MemoryError) as stop:
         status = Outcome.INTERRUPTED
         number = min(len(steps) + 1, len(schedule))
         words = f"interrupted in step {number} of {len(schedule)}; {len(steps)} steps were finished"
         if isinstance(stop, SolveFailed):
             status, words = stop.status, str(stop)
+        if isinstance(stop, MemoryError):
+            status, words = Outcome.NOT_FOUND, f"step {number} of {len(schedule)}: {out_of_memory(stop)}"
         last = end if steps else None
-        part = reached(stop)
+        part = None if isinstance(stop, MemoryError) else reached(stop)
         if part is not None:
             steps.append(step_result(now, schedule[len(steps)], part, (), finished=False))
         return replace(_history(prepared, status, words, steps, last, first), escape=_motion(stop))
@@ -263,7 +269,7 @@ def _from(
     return _step(now, stage, state, tape is not None)
 
 
-def _motion(stop: SolveFailed | KeyboardInterrupt) -> Array | None:
+def _motion(stop: BaseException) -> Array | None:
     motion = stop.motion if isinstance(stop, SolveFailed) else None
     return None if motion is None else np.asarray(motion, dtype=np.float64)
 

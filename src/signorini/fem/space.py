@@ -79,8 +79,7 @@ class Block:
     stress_values, stress_gradients : (p, k), (p, k, d) the same where stresses are best
     to_nodes : (k, p) from there to the nodes
     to_best : (p, q) from the quadrature points to where stresses are best, least squares by the same monomials
-    pressures, stress_pressures : (q, n), (p, n) functions for a mean dilatation at either points; n = 0 for cells that
-        have none
+    pressures, stress_pressures : (q, n), (p, n) functions for a mean dilatation at either points; n = 0 without
     """
 
     family: str
@@ -202,18 +201,20 @@ class Space:
         """Of all cells, by the number of their nodes."""
         return make_facets(self.mesh)
 
-    @cached_property
+    def forget_facets(self) -> None:
+        """Let go of what is made anew where somebody asks: larger than the mesh, and of use before it is solved."""
+        self.__dict__.pop("facets", None)
+
+    @property
     def jacobians(self) -> tuple[Array, ...]:
-        """``dx/dX`` at the quadrature points, (m, q, d, d) a block."""
+        """``dx/dX`` at the quadrature points, (m, q, d, d) a block; not kept, for they are larger than the mesh."""
         return tuple(jacobians(self.mesh.points[block.cells], block.gradients) for block in self.blocks)
 
     @cached_property
     def volumes(self) -> tuple[Array, ...]:
         """Quadrature weights times ``|det dx/dX|``, (m, q) a block: area of each quadrature point."""
-        return tuple(
-            np.abs(determinants(jacobian)) * block.weights
-            for jacobian, block in zip(self.jacobians, self.blocks, strict=True)
-        )
+        both = zip(self.jacobians, self.blocks, strict=True)
+        return tuple(np.abs(determinants(bent)) * block.weights for bent, block in both)
 
     def volumes_of(self, block: Block) -> Array:
         """Area of each quadrature point of a block, (m, q)."""
