@@ -28,7 +28,8 @@ from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.memory import give_memory_back
 
-_LARGE = 5_000_000  # entries of K from which memory is worth the milliseconds that it takes to give it back
+_GIVEN_BACK_FROM = 5_000_000
+"""Entries of K from which the milliseconds that it takes to give memory back are worth it."""
 
 
 def free_bodies(examined: Examined, K: sp.csr_array) -> FreeBodies:
@@ -67,7 +68,7 @@ def condense_bodies(
     rigid = (examined.motions @ examined.floating)[examined.constraints.leaders]
     if not (examined.model.slides or examined.model.wears):  # neither looks for facets again
         examined.space.forget_facets()
-    if bodies.K.nnz > _LARGE:
+    if bodies.K.nnz > _GIVEN_BACK_FROM:
         give_memory_back()
     try:
         return condense(
