@@ -12,7 +12,7 @@ from signorini import cores
 from signorini.cli import main
 from signorini.crew import Crew, Job
 from signorini.errors import InputError
-from signorini.linalg import NotPositiveDefinite, factorise, plan, schedule
+from signorini.linalg import NotPositiveDefinite, factorise, multifrontal, plan, schedule
 from tests.helpers.lattices import dense_schur, lattice, together
 
 
@@ -61,6 +61,32 @@ def test_every_number_of_threads_gives_the_same_bits(name):
     moved = factor.reduce(load).expand(np.zeros(len(p.interface)))
     inside = np.setdiff1d(np.arange(len(load)), p.interface)
     assert np.abs((p.K @ moved - load)[inside]).max() <= 1e-9 * np.abs(load).max()
+
+
+@pytest.mark.parametrize("name", ["plane", "no interface"])
+def test_threads_share_many_loads_with_the_same_bits(name, monkeypatch):
+    monkeypatch.setattr(multifrontal, "SHARED_WORK", 0.0)
+    p, rng = PROBLEMS[name], np.random.default_rng(2)
+    factor = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal")
+    loads, edge = rng.standard_normal((p.K.shape[0], 50)), rng.standard_normal((len(p.interface), 50))
+    found, workers = [], set()
+    run = multifrontal.Crew.each
+
+    def each(crew, calls):
+        workers.add((crew.threads, len(calls)))
+        return run(crew, calls)
+
+    monkeypatch.setattr(multifrontal.Crew, "each", each)
+    for number in (1, 2, 3):
+        with cores.threads(number):
+            reduced = factor.reduce(loads)
+            found.append((reduced.load, reduced.expand(edge)))
+    assert workers == {(1, 4), (2, 4), (3, 4)}
+    for other in found[1:]:
+        assert all(np.array_equal(one, two) for one, two in zip(found[0], other, strict=True))
+    for column in (0, 15, 16, 49):
+        alone = factor.reduce(loads[:, column]).expand(edge[:, column])
+        assert np.abs(found[0][1][:, column] - alone).max() <= 1e-12 * np.abs(alone).max()
 
 
 @pytest.mark.usefixtures("shared")

@@ -22,7 +22,7 @@ def _any(y: Array, start: int, end: int) -> bool:
     return False
 
 
-@kernel()
+@kernel(nogil=True)
 def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -> None:
     """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-1 y``; the interface gathers what is left.
 
@@ -55,7 +55,7 @@ def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) ->
                 y[c, rows[i]] += work[c * r + i]
 
 
-@kernel()
+@kernel(nogil=True)
 def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -> None:
     """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-T (y_i - L_ci^T y_c)``.
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from scipy import sparse
@@ -26,11 +27,13 @@ from signorini.linalg import _front_products, _front_solves, _fronts
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
-from signorini.linalg.plan import Plan, Plans, analyse
+from signorini.linalg.plan import SHARED_WORK, Plan, Plans, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.shared_fronts import factorise_parts
 from signorini.linalg.system import System, as_columns, like
 from signorini.linalg.threads import one_thread
+
+_TOGETHER = 16  # loads that one thread solves for: the factor is read once for all of them
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,8 +107,14 @@ class MultifrontalFactorisation:
         return rows.data
 
     def _solve(self, half: Callable[..., None], y: Array) -> None:
-        with one_thread():
-            half(self.plan.fronts, self.factor, y, np.empty(self.plan.widest * len(y)), scratch())
+        """Solve for loads in the rows of y, some at a time: as many whatever number of threads shares them."""
+
+        def solve(some: Array) -> None:
+            half(self.plan.fronts, self.factor, some, np.empty(self.plan.widest * len(some)), scratch())
+
+        work = float(self.plan.nnz_factor) * len(y)
+        with one_thread(), Crew(number_of_threads() if work > SHARED_WORK and len(y) > _TOGETHER else 1) as crew:
+            crew.each([partial(solve, y[first : first + _TOGETHER]) for first in range(0, len(y), _TOGETHER)])
 
 
 def factorise(system: System, plans: Plans | None = None) -> MultifrontalFactorisation:
