@@ -33,7 +33,7 @@ from signorini.linalg.shared_fronts import factorise_parts
 from signorini.linalg.system import System, as_columns, like
 from signorini.linalg.threads import one_thread
 
-_TOGETHER = 16  # loads that one thread solves for: the factor is read once for all of them
+_LOADS_AT_ONCE = 16  # loads that one thread solves for: the factor is read once for all of them
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,8 +113,8 @@ class MultifrontalFactorisation:
             half(self.plan.fronts, self.factor, some, np.empty(self.plan.widest * len(some)), scratch())
 
         work = float(self.plan.nnz_factor) * len(y)
-        with one_thread(), Crew(number_of_threads() if work > SHARED_WORK and len(y) > _TOGETHER else 1) as crew:
-            crew.each([partial(solve, y[first : first + _TOGETHER]) for first in range(0, len(y), _TOGETHER)])
+        with one_thread(), Crew(number_of_threads() if work > SHARED_WORK and len(y) > _LOADS_AT_ONCE else 1) as crew:
+            crew.each([partial(solve, y[first : first + _LOADS_AT_ONCE]) for first in range(0, len(y), _LOADS_AT_ONCE)])
 
 
 def factorise(system: System, plans: Plans | None = None) -> MultifrontalFactorisation:
