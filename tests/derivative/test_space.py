@@ -7,6 +7,7 @@ from functools import partial
 import pytest
 
 import signorini as sg
+from benchmarks import random_cones
 from signorini.derivative.functionals import value
 from signorini.model.outputs import Displacement, Stress
 from tests.derivative.rig import ball_rig, tilted_rig, twisted_rig
@@ -79,6 +80,13 @@ def test_increments_that_end_at_events_on_cones(rig, parameter):
     assert any(point.quiet is not None and (rig is ball_rig or point.quiet.trials) for point in points)
     outputs = [sg.pressure("joint").peak, sg.force("joint", along=(1.0, 0.2, 0.3)), sg.dissipation()]
     check(model, solution, outputs, parameter)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [8, 29])
+def test_where_a_pair_begins_to_slip_between_increments_is_found_to_rounding(seed):
+    """The length of the increment up to there is that of the event: behind it friction turns, and lengths matter."""
+    assert max(random_cones.differences(seed).values()) < 1e-6
 
 
 @pytest.mark.parametrize("parameter", ["friction.joint", "load.pull"])

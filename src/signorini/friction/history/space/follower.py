@@ -57,6 +57,7 @@ _LONGER_TURN = 4.0  # times what friction may turn elsewhere: where one longer i
 _FOLD_REACH = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)  # times the last increment: where to look for the other side of a fold
 _FOLD, _TURNED = 1e-9, 0.3  # part of the way in which it is looked for, and what friction may turn in it
 _PATIENCE = 4  # tries
+_EVENT_TRIES = 12  # in which an event is met to rounding, if it can be
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
 _EVENT_WIDTH = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
 _QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
@@ -226,14 +227,13 @@ class SpaceFollower(PathFollower):
         step = min(max(PROBE * self.last, _LEAST_PROBE, shortest), left)
         tried, best = self.tried, None
         inner: SolvedIncrement | None = None
+        beyond: SolvedIncrement | None = None
         search: tuple[SolvedIncrement, ...] = ()  # that told lengths one after the other, see `Breakpoint`
-        words, longest, barrier = "", left, self._barrier - self.factor
+        words, longest, barrier, self._barrier = "", left, self._barrier - self.factor, np.inf
         if _LOST < barrier <= step:  # where the last one was refused is not tried again before it is near
             step, longest = 0.5 * barrier, barrier
-        self._barrier = np.inf
         for number in range(TRIES):
-            late = _LATE_EVENT_TOL if self.smooth and number >= _PATIENCE else _EVENT_TOL
-            longer = late * (_LOOSER ** (number - _PATIENCE) if late == _LATE_EVENT_TOL else 1.0)
+            late = self._missed(number, _EVENT_TRIES)
             trial = self._trial(step, shortest, self._guess(step))
             if isinstance(trial, ContactAnswer):
                 search = ()
@@ -244,14 +244,15 @@ class SpaceFollower(PathFollower):
                 if step <= _LOST or (best is not None and step <= best.step * (1.0 + _REFUSED)):
                     break
                 step = step / 16.0 if best is None else 0.5 * (best.step + step)
-            elif trial.until >= 1.0 - late and trial.turn <= self._turn:
+            elif trial.until >= 1.0 - min(late, _LATE_EVENT_TOL) and trial.turn <= self._turn:
                 best, inner = replace(trial, search=search), inner or trial
                 step = trial.step * self._room(trial, inner.after.state)
                 if step >= longest and longest < left:
                     if longest == barrier and longest <= trial.step * (1.0 + _REFUSED):
                         break
                     step = 0.5 * (trial.step + longest)
-                if min(step, left) <= trial.step * (1.0 + longer):
+                turns = step == turned_length(trial, self._turn)
+                if min(step, left) <= trial.step * (1.0 + (self._missed(number, _PATIENCE) if turns else late)):
                     break
                 step = min(step, left)
             elif trial.step <= shortest and (
@@ -265,8 +266,8 @@ class SpaceFollower(PathFollower):
                 words, longest = f"pairs {np.flatnonzero(trial.each <= trial.until).tolist()} act", step
                 if best is None and number >= patience:
                     break
-                step = shortened(trial, self._turn, shortest, best)
-                if best is not None and step <= best.step * (1.0 + longer):
+                step, beyond = shortened(trial, self._turn, shortest, best, beyond), trial
+                if best is not None and step <= best.step * (1.0 + late):
                     break
             if step < LEAST_STEP:
                 break
@@ -279,6 +280,11 @@ class SpaceFollower(PathFollower):
         after = settled(self.problem, self.now, best, inner.after.state if exact else best.after.state)
         self._enter(best, after, self.tried - tried)
         return ""
+
+    def _missed(self, number: int, tries: int) -> float:
+        """Part of an increment by which it may end beside what ends it, after so many tries of those that are sharp."""
+        rough = self.smooth and number >= tries
+        return _LATE_EVENT_TOL * _LOOSER ** (number - tries) if rough else _EVENT_TOL
 
     def _guess(self, step: float) -> Array | None:
         """(3, n) r - h at the end of an increment that goes on as the last one did; None before the first."""

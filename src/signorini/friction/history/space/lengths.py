@@ -61,7 +61,9 @@ def turned_length(trial: SolvedIncrement, turn: float) -> float:
     return trial.step * (SHORT * turn / trial.turn) if trial.turn > 0.0 else math.inf
 
 
-def shortened(trial: SolvedIncrement, turn: float, least: float, best: SolvedIncrement | None) -> float:
+def shortened(
+    trial: SolvedIncrement, turn: float, least: float, best: SolvedIncrement | None, beyond: SolvedIncrement | None
+) -> float:
     """The length to try after one in which something has happened, or friction has turned too far.
 
     Parameters
@@ -70,11 +72,30 @@ def shortened(trial: SolvedIncrement, turn: float, least: float, best: SolvedInc
     turn : angle by which friction may turn
     least : length that it need not undercut
     best : the longest so far in which nothing has; None where there is none
+    beyond : the last one before in which something has; None where there is none
     """
     aim = SHORT * turn / trial.turn if trial.turn > turn else 1.0
     if trial.until < 1.0:
-        aim = min(aim, trial.until * (SHORT if best is None else 1.0))
+        aim = min(aim, SHORT * trial.until if best is None else _part_up_to_event(trial, beyond))
     return max(aim * trial.step, least if best is None else best.step)
+
+
+def _part_up_to_event(trial: SolvedIncrement, beyond: SolvedIncrement | None) -> float:
+    """Part of an increment at which the first of its events is: by how late it is in that and in one before, a secant.
+
+    Parameters
+    ----------
+    trial : the increment
+    beyond : see `shortened`
+    """
+    if beyond is None:
+        return trial.until
+    pair = int(np.argmin(trial.each))
+    late, later = (one.step * (1.0 - float(one.each[pair])) for one in (trial, beyond))
+    if (later - late) * (beyond.step - trial.step) <= 0.0:
+        return trial.until
+    part = 1.0 - late / trial.step * ((beyond.step - trial.step) / (later - late))
+    return part if part > 0.0 else trial.until
 
 
 def pressed_for(problem: ContactProblem, r: Array, rate: Array, longest: float) -> float:
