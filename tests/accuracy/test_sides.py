@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 import signorini as sg
 from signorini.accuracy.contacts import trace_errors
-from signorini.accuracy.recovery import stress_error
+from signorini.accuracy.recovery import Recovery
 from signorini.accuracy.sides import side_errors
 from signorini.fem.boundary import boundary
 from signorini.fem.space import make_space
@@ -112,7 +112,7 @@ def test_stresses_of_both_bodies_press_alike():
     mesh = sg.solve(model, accuracy=sg.Accuracy(0.02, nodes=12_000)).model
     solution = sg.solve(mesh)
     deformed = DeformedBodies.of(make_space(mesh.mesh, kind=mesh.kind), mesh, solution.last.displacement)
-    found = trace_errors(deformed, solution.last.contacts, stress_error(deformed))
+    found = trace_errors(deformed, solution.last.contacts, Recovery(deformed.space, mesh).error(deformed))
     assert np.sqrt(found.pressure / found.scale) < 0.02
     for name in ("upper.arc", "lower.arc"):
         own = boundary(deformed.space, name, ("contact",)).corner_nodes

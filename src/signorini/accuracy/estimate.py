@@ -9,7 +9,7 @@ import numpy as np
 
 from signorini.accuracy.contacts import ContactErrors, level_errors, trace_errors
 from signorini.accuracy.influence import influence
-from signorini.accuracy.recovery import stress_error
+from signorini.accuracy.recovery import Recovery
 from signorini.arrays import Array
 from signorini.fem.space import make_space
 from signorini.fem.stress import DeformedBodies
@@ -71,12 +71,13 @@ def estimate(history: History, before: Before | None = None) -> Estimate:
     model = history.model
     space, flat = make_space(model.mesh, kind=model.kind), model.dimension == 2
     traced, carried, pairs = list[ContactErrors](), list[ContactErrors](), 0
+    recovery = Recovery(space, model)
     squares, lost, norms = np.zeros(model.mesh.number_of_cells), [0.0], [0.0]
     weights = np.zeros(model.mesh.number_of_cells)
     for k, step in enumerate(history.steps):
         flowed = {} if step.plastic is None else by_family(space, model, step.plastic.state.strain)
         deformed = DeformedBodies.of(space, model, step.displacement, step.factors, flowed)
-        stress = stress_error(deformed)
+        stress = recovery.error(deformed)
         squares += stress.squares
         weights += stress.squares * (influence(model.mesh, step.contacts) if model.dimension == IN_SPACE else 1.0)
         lost.append(float(stress.squares.sum()))

@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.accuracy.estimate import Estimate
 from signorini.accuracy.output_error import OutputLevel, output_error
-from signorini.accuracy.recovery import stress_error
+from signorini.accuracy.recovery import Recovery
 from signorini.arrays import Array
 from signorini.derivative.derivative import TapedHistory
 from signorini.derivative.dual import dual_displacement
@@ -88,9 +88,11 @@ class Goal:
         point = view.points[view.number(output.load_factor)]
         motion = view.displacement(view.number(output.load_factor))
 
+        recovery = Recovery(view.space, model)
+
         def squares(u: Array, factors: Mapping[str, float]) -> Array:
             at_nodes = view.space.at_nodes(u)[: len(model.mesh.points)]
-            return stress_error(DeformedBodies.of(view.space, model, at_nodes, factors)).squares
+            return recovery.error(DeformedBodies.of(view.space, model, at_nodes, factors)).squares
 
         own, of_dual = squares(motion, point.load.factors), squares(dual, {})
         scale = float(np.sqrt(own.sum() / of_dual.sum())) if own.any() and of_dual.any() else 1.0

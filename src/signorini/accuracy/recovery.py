@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-import scipy.sparse as sp
 
-from signorini.accuracy._fits import add_points, add_work
-from signorini.arrays import Array, IntArray, among, selection
+from signorini.accuracy._fits import add_work, cells_at_corners, fit, wider_patches
+from signorini.arrays import Array, IntArray, among
 from signorini.fem.elasticity import elasticity
-from signorini.fem.jacobian import determinants, jacobians
+from signorini.fem.jacobian import determinants, jacobians, places
 from signorini.fem.kinematics import groups
 from signorini.fem.measure import measure
 from signorini.fem.space import Block, Space, shapes_in_cells
@@ -58,8 +58,8 @@ class StressError:
         return float(np.sqrt(self.squares.sum() / self.norm_square)) if self.norm_square > 0.0 else 0.0
 
 
-def stress_error(deformed: DeformedBodies) -> StressError:
-    """What stresses of the cells are away from smoother ones, which polynomials around every corner have fitted.
+class Recovery:
+    """Recovered stresses of bodies on one mesh, of as many displacements as there are: patches are found once.
 
     Around a corner of a body a polynomial of the degree of the displacements fits the stresses at the best points of
     the cells there, by least squares, those of corners at the skin on the next layer of cells too; inside a cell those
@@ -67,42 +67,69 @@ def stress_error(deformed: DeformedBodies) -> StressError:
 
     Parameters
     ----------
-    deformed : bodies with their displacements
+    space, model : of the bodies
 
     References
     ----------
     Zienkiewicz, Zhu (1992), Int. J. Numer. Methods Eng. 33, 1331; blended: Blacker, Belytschko (1994), ibid. 37, 517.
+
+    Examples
+    --------
+    >>> import signorini as sg
+    >>> from signorini.fem.space import make_space
+    >>> model = sg.Model(sg.rectangle(nx=2), bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.0))])
+    >>> space = make_space(model.mesh)
+    >>> stretched = DeformedBodies.of(space, model, 0.5 * model.mesh.points)
+    >>> error = Recovery(space, model).error(stretched)
+    >>> round(error.norm_square, 9), round(error.relative, 6)
+    (0.5, 0.0)
     """
-    space, model = deformed.space, deformed.model
-    parts: list[list[_Cells]] = [[] for _ in model.bodies]
-    for group in groups(space, model):
-        stress = deformed.stress(group)
-        for i in np.unique(group.body):
-            own = group.body == i
-            parts[i].append(_Cells(block=group.block, index=group.index[own], stress=stress[own]))
-    squares, total, nodal = np.zeros(model.mesh.number_of_cells), 0.0, []
-    for body, own_parts in zip(model.bodies, parts, strict=True):
-        kind = "3d" if own_parts[0].stress.shape[2] == _IN_SPACE else "plane strain"
-        compliance = np.asarray(np.linalg.inv(elasticity(body.material, kind)), float)
-        fitted = _fitted(space, own_parts)
-        for part in own_parts:
-            work = part.work(fitted, compliance, model, space)
-            squares[part.numbers] = work[:, 0]
-            total += float(work[:, 1].sum())
-        nodes = np.flatnonzero(among([part.corners for part in own_parts], len(space.mesh.points)))
-        nodal.append((nodes, fitted.coefficients[nodes, 0]))
-    return StressError(squares=squares, norm_square=total, nodal=tuple(nodal))
+
+    def __init__(self, space: Space, model: Model) -> None:
+        self._model = model
+        self._groups = list(groups(space, model))
+        self._owners = [[(int(i), group.body == i) for i in np.unique(group.body)] for group in self._groups]
+        parts: list[list[_Cells]] = [[] for _ in model.bodies]
+        for group, owners in zip(self._groups, self._owners, strict=True):
+            for i, own in owners:
+                parts[i].append(_Cells(block=group.block, index=group.index[own], space=space))
+        self._bodies = [_Patches.of(space, own) for own in parts]
+
+    def error(self, deformed: DeformedBodies) -> StressError:
+        """What stresses of the cells are away from smoother ones, which polynomials around every corner have fitted.
+
+        Parameters
+        ----------
+        deformed : these bodies with their displacements
+        """
+        model = self._model
+        stresses: list[list[Array]] = [[] for _ in model.bodies]
+        for group, owners in zip(self._groups, self._owners, strict=True):
+            stress = deformed.stress(group)
+            for i, own in owners:
+                stresses[i].append(np.ascontiguousarray(stress if len(owners) == 1 else stress[own]))
+        squares, total, nodal = np.zeros(model.mesh.number_of_cells), 0.0, []
+        for body, patches, own_stresses in zip(model.bodies, self._bodies, stresses, strict=True):
+            kind = "3d" if own_stresses[0].shape[2] == _IN_SPACE else "plane strain"
+            compliance = np.asarray(np.linalg.inv(elasticity(body.material, kind)), float)
+            fitted = patches.fitted(own_stresses)
+            for part, rows, stress in zip(patches.parts, patches.corners, own_stresses, strict=True):
+                work = part.work(rows, stress, fitted, compliance, model)
+                squares[part.numbers] = work[:, 0]
+                total += float(work[:, 1].sum())
+            nodal.append((patches.nodes, fitted[2][:, 0]))
+        return StressError(squares=squares, norm_square=total, nodal=tuple(nodal))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Cells:
-    """Cells of one body and family, and their stresses at the points where these are best, (m, p, 4 or 6)."""
+    """Cells of one body and family."""
 
     block: Block
     index: IntArray
-    stress: Array
+    space: Space
 
-    @property
+    @cached_property
     def nodes(self) -> IntArray:
         """(m, k)."""
         return self.block.cells[self.index]
@@ -122,85 +149,127 @@ class _Cells:
         """Of the shape functions: 1 or 2."""
         return 1 if self.nodes.shape[1] == CORNERS[self.block.family] else 2
 
-    def work(self, fitted: _Fitted, compliance: Array, model: Model, space: Space) -> Array:
-        """``int s : C^-1 : s`` of every cell, (m, 2): of recovered stresses less those of the cell, and of these."""
+    def at(self, functions: Array) -> Array:
+        """(m, q, d) Places of points of the cells, of shape functions (q, k) there."""
+        return places(self.space.mesh.points[self.nodes], functions)
+
+    def work(
+        self, rows: IntArray, stress: Array, fitted: tuple[Array, Array, Array], compliance: Array, model: Model
+    ) -> Array:
+        """``int s : C^-1 : s`` of every cell, (m, 2): of recovered stresses less those of the cell, and of these.
+
+        Parameters
+        ----------
+        rows : (m, a) of the corners among those that are fitted
+        stress : (m, p, 4 or 6) at the best points
+        fitted : centres, sizes and coefficients of the corners
+        compliance : strains of unit stresses
+        model : tells the thickness
+        """
         family, degree = self.block.family, _DEGREES[self.order]
-        values, slopes, weights = shapes_in_cells(family, degree)
         linear = shapes_in_cells(family.rstrip("0123456789"), degree)[0]
-        nodes = space.mesh.points[self.nodes]
-        at = values @ nodes
-        volumes = weights * np.abs(determinants(jacobians(nodes, slopes))) * measure(model, at, self.numbers)
+        at, volumes = self._quadrature(model, degree)
         own = linear @ self.block.to_nodes[: linear.shape[1]]
         found = np.zeros((len(self.index), 2))
-        stress, sizes = np.ascontiguousarray(self.stress), np.ascontiguousarray(volumes)
-        fits = fitted.centres, fitted.sizes, fitted.coefficients
-        cells = np.ascontiguousarray(self.corners), stress, sizes
-        add_work(cells, (np.ascontiguousarray(linear), own), at, fits, compliance, found)
+        add_work((rows, stress, volumes), (np.ascontiguousarray(linear), own), at, fitted, compliance, found)
         return found
+
+    def _quadrature(self, model: Model, degree: int) -> tuple[Array, Array]:
+        """Places (m, q, d) and volumes (m, q) of quadrature points."""
+        values, slopes, weights = shapes_in_cells(self.block.family, degree)
+        nodes, at = self.space.mesh.points[self.nodes], self.at(values)
+        sizes = np.abs(determinants(jacobians(nodes, slopes)))
+        return at, np.ascontiguousarray(weights * sizes * measure(model, at, self.numbers))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Fitted:
-    """Polynomials around the corners of a body.
+class _Patches:
+    """Which cells of a body are around its corners.
 
     Attributes
     ----------
-    centres : (n, d) places of all nodes, length
-    sizes : (n,) of the patches, length
-    coefficients : (n, monomials, 4 or 6) of ``(x - centre) / size``
+    parts : of its cells, numbered part after part
+    nodes : (n,) that are corners
+    corners : (m, a) of every part, their places among these
+    around : where the cells of every corner begin (n + 1,), and these
+    points : where the best points of every cell begin (m + 1,), and their places (p, d)
+    centres, sizes : (n, d) and (n,) of the patches, length
+    monomials : of the polynomials
     """
 
+    parts: Sequence[_Cells]
+    nodes: IntArray
+    corners: Sequence[IntArray]
+    around: tuple[IntArray, IntArray]
+    points: tuple[IntArray, Array]
     centres: Array
     sizes: Array
-    coefficients: Array
+    monomials: int
 
-
-def _fitted(space: Space, parts: Sequence[_Cells]) -> _Fitted:
-    """Least squares on the patches of all corners of a body."""
-    points, order = space.mesh.points, max(part.order for part in parts)
-    patches, sizes = _patches(space, parts, order)
-    monomials, components = _count(points.shape[1], order), parts[0].stress.shape[2]
-    normal = np.zeros((len(points), monomials, monomials))
-    right = np.zeros((len(points), monomials, components))
-    first = 0
-    for part in parts:
-        own = sp.csr_array(patches[:, first : first + len(part.index)])
-        first += len(part.index)
-        at = np.einsum("pk,mki->mpi", part.block.stress_values, points[part.nodes])
-        around = own.indptr.astype(np.int64), own.indices.astype(np.int64)
-        add_points(around, at, np.ascontiguousarray(part.stress), points, sizes, normal, right)
-    trace = np.trace(normal, axis1=1, axis2=2)[:, None, None]
-    normal += np.where(trace > 0.0, _REGULAR * trace, 1.0) * np.eye(monomials)
-    return _Fitted(centres=points, sizes=sizes, coefficients=np.asarray(np.linalg.solve(normal, right), float))
-
-
-def _patches(space: Space, parts: Sequence[_Cells], order: int) -> tuple[sp.csr_array, Array]:
-    """(nodes, cells of the body) Which cells are around a corner, and how far they reach, (nodes,) length."""
-    count, points = len(space.mesh.points), space.mesh.points
-    first = np.cumsum([0, *(len(part.index) for part in parts)])
-    rows = np.concatenate([part.corners.ravel() for part in parts])
-    of_parts = [
-        np.repeat(start + np.arange(len(p.index)), p.corners.shape[1]) for p, start in zip(parts, first, strict=False)
-    ]
-    touching = sp.csr_array((np.ones(len(rows)), (rows, np.concatenate(of_parts))), shape=(count, first[-1]))
-    samples = np.concatenate([np.full(len(part.index), part.stress.shape[1]) for part in parts])
-    needed, there = _POINTS * _count(points.shape[1], order), touching.sum(axis=1) > 0
-    narrow = there & ((touching @ samples < needed) | among(_skin(space, parts), count))
-    patches, around = touching, touching.T
-    for _ in range(_LAYERS):
-        if not narrow.any():
-            break
-        wider = selection(np.flatnonzero(narrow), count)
-        patches = sp.csr_array(
-            sp.diags_array(1.0 * ~narrow) @ patches + wider.T @ (wider @ touching @ around @ patches)
+    @staticmethod
+    def of(space: Space, parts: Sequence[_Cells]) -> _Patches:
+        """Of the cells of a body."""
+        count, d = len(space.mesh.points), space.dimension
+        held = among([part.corners for part in parts], count)
+        nodes, number = np.flatnonzero(held), np.cumsum(held) - 1
+        corners = [np.ascontiguousarray(number[part.corners], np.int64) for part in parts]
+        flat = np.concatenate([own.ravel() for own in corners])
+        monomials = _count(d, max(part.order for part in parts))
+        cells, points = (
+            _starts(parts, [width(part) for part in parts])
+            for width in (lambda part: part.corners.shape[1], lambda part: len(part.block.stress_values))
         )
-        narrow &= patches.astype(bool) @ samples < needed
-    patches.eliminate_zeros()
-    corners = [points[part.corners] for part in parts]
-    spans = np.concatenate([np.linalg.norm(np.ptp(own, axis=1), axis=1) for own in corners])
-    sizes = np.ones(count)
-    sizes[there] = ((touching @ spans) / np.maximum(touching.sum(axis=1), 1.0))[there]
-    return patches, sizes
+        touching = cells_at_corners((cells, flat), len(nodes))
+        around, narrow = touching, among(_skin(space, parts), count)[nodes]
+        narrow |= _samples(around, points) < _POINTS * monomials
+        for _ in range(_LAYERS):
+            if not narrow.any():
+                break
+            around = wider_patches((cells, flat), touching, around, narrow)
+            narrow &= _samples(around, points) < _POINTS * monomials
+        spans = np.concatenate([_spans(space.mesh.points, part.corners) for part in parts])
+        sizes = np.bincount(flat, np.repeat(spans, np.diff(cells))) / np.diff(touching[0])
+        at = np.concatenate([part.at(part.block.stress_values).reshape(-1, d) for part in parts])
+        return _Patches(
+            parts=parts,
+            nodes=nodes,
+            corners=corners,
+            around=around,
+            points=(points, at),
+            centres=space.mesh.points[nodes],
+            sizes=sizes,
+            monomials=monomials,
+        )
+
+    def fitted(self, stresses: Sequence[Array]) -> tuple[Array, Array, Array]:
+        """Centres, sizes and coefficients (n, monomials, 4 or 6) of polynomials of ``(x - centre) / size``.
+
+        Parameters
+        ----------
+        stresses : (m, p, 4 or 6) of every part at its best points
+        """
+        values = np.concatenate([stress.reshape(-1, stress.shape[2]) for stress in stresses])
+        found = np.empty((len(self.nodes), self.monomials, values.shape[1]))
+        fit(self.around, (*self.points, values), self.centres, self.sizes, _REGULAR, found)
+        return self.centres, self.sizes, found
+
+
+def _starts(parts: Sequence[_Cells], widths: Sequence[int]) -> IntArray:
+    """(m + 1,) Where what every cell of some parts has as many of begins."""
+    each = np.repeat(widths, [len(part.index) for part in parts])
+    return np.concatenate([[0], np.cumsum(each)])
+
+
+def _samples(patches: tuple[IntArray, IntArray], points: IntArray) -> IntArray:
+    """(n,) Points of patches."""
+    starts, cells = patches
+    return np.asarray(np.add.reduceat(np.diff(points)[cells], starts[:-1]))
+
+
+def _spans(points: Array, corners: IntArray) -> Array:
+    """(m,) Diagonals of the boxes around cells, length."""
+    at = [points[own] for own in corners.T]
+    return np.asarray(np.linalg.norm(np.maximum.reduce(at) - np.minimum.reduce(at), axis=1))
 
 
 def _skin(space: Space, parts: Sequence[_Cells]) -> list[IntArray]:

@@ -23,6 +23,24 @@ def jacobians(points: Array, reference: Array) -> Array:
     return along.reshape(d, cells, count, d).transpose(1, 2, 0, 3)
 
 
+def places(points: Array, values: Array) -> Array:
+    """Places of points in cells, or what else shape functions interpolate, (m, q, d).
+
+    Parameters
+    ----------
+    points : (m, k, d) the nodes of the cells, length
+    values : (q, k) shape functions at points of the reference cell
+
+    Examples
+    --------
+    >>> places(np.array([[[0.0, 1.0], [4.0, 3.0]]]), np.array([[0.5, 0.5], [0.0, 1.0]])).tolist()
+    [[[2.0, 2.0], [4.0, 3.0]]]
+    """
+    cells, nodes, d = points.shape
+    found = points.transpose(2, 0, 1).reshape(-1, nodes) @ values.T
+    return np.ascontiguousarray(found.reshape(d, cells, len(values)).transpose(1, 2, 0))
+
+
 def determinants(matrices: Array) -> Array:
     """Determinants (...) of many small matrices, (..., 2, 2) or (..., 3, 3).
 

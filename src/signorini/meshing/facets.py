@@ -59,7 +59,7 @@ def make_facets(mesh: Mesh) -> dict[int, CellFacets]:
     owner: dict[int, list[IntArray]] = {}
     first, d = 0, mesh.points.shape[1]
     for family, cells in mesh.cells.items():
-        inside_out = corner_volumes(mesh.points, family, cells).sum(axis=1) < 0.0
+        inside_out = numbered_inside_out(mesh.points, family, cells)
         for facet in FACETS[family]:
             members = cells[:, list(facet)]
             members[inside_out] = members[inside_out][:, turned_facet(facet_corners(d, len(facet)), len(facet))]
@@ -86,21 +86,34 @@ def unshared(keys: IntArray) -> BoolArray:
     return alone
 
 
-def corner_volumes(points: Array, family: str, cells: IntArray) -> Array:
-    """Determinants of the edges at every corner of cells, (m, corners); negative where they are numbered inside out.
+def numbered_inside_out(points: Array, family: str, cells: IntArray) -> BoolArray:
+    """(m,) Which cells of one family are; simplices have one volume at all their corners.
 
     Parameters
     ----------
     points : (n, d) of the mesh, length
     family, cells : (m, k) nodes of cells of one family
     """
+    every = corner_volumes(points, family, cells, 1 if CORNERS[family] == points.shape[1] + 1 else None)
+    return np.asarray(every.sum(axis=1) < 0.0)
+
+
+def corner_volumes(points: Array, family: str, cells: IntArray, first: int | None = None) -> Array:
+    """Determinants of the edges at every corner of cells, (m, corners); negative where they are numbered inside out.
+
+    Parameters
+    ----------
+    points : (n, d) of the mesh, length
+    family, cells : (m, k) nodes of cells of one family
+    first : corners that are looked at; all if not given
+    """
     volumes = []
-    for corner, others in enumerate(_NEIGHBOURS[family.rstrip("0123456789")]):
-        first, second, *third = (points[cells[:, other]] - points[cells[:, corner]] for other in others)
-        if third:
-            volumes.append(np.sum(np.cross(first, second) * third[0], axis=1))
+    for corner, others in enumerate(_NEIGHBOURS[family.rstrip("0123456789")][:first]):
+        one, two, *three = (points[cells[:, other]] - points[cells[:, corner]] for other in others)
+        if three:
+            volumes.append(np.sum(np.cross(one, two) * three[0], axis=1))
         else:
-            volumes.append(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0])
+            volumes.append(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
     return np.stack(volumes, axis=1)
 
 
@@ -294,9 +307,10 @@ def facet_keys(corners: IntArray, points: int) -> IntArray:
     """
     if corners.shape[1] > 2 and points > 2_000_000:
         raise InputError(f"has {points} nodes; expected at most 2000000 in space", where=("mesh",))
-    first, second, *third = np.sort(corners, axis=1)[:, :3].T
-    key: IntArray = first * points + second
-    return key * points + third[0] if third else key
+    if corners.shape[1] == 2:  # several times faster than a sort of every row
+        return np.asarray(np.minimum(*corners.T) * points + np.maximum(*corners.T))
+    first, second, third = np.sort(corners, axis=1)[:, :3].T
+    return np.asarray((first * points + second) * points + third)
 
 
 def _nodes(mesh: Mesh, nodes: IntArray) -> str:

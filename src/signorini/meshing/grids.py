@@ -12,7 +12,7 @@ from signorini.arrays import Array, IntArray
 from signorini.checks import choice, vector, whole
 from signorini.errors import InputError, Where
 from signorini.memory import check_memory
-from signorini.meshing.facets import corner_volumes
+from signorini.meshing.facets import numbered_inside_out
 from signorini.model.mesh import CORNERS, NODES_PER_CELL, NODES_PER_PLANE_CELL, Mesh
 
 _PER_POINT = 350
@@ -128,7 +128,7 @@ def _cells_of(index: IntArray, family: str) -> IntArray:
 
 
 def _counterclockwise(points: Array, cells: IntArray, family: str) -> IntArray:
-    n, inside_out = CORNERS[family], corner_volumes(points, family, cells).sum(axis=1) < 0.0
+    n, inside_out = CORNERS[family], numbered_inside_out(points, family, cells)
     back = list(range(n))[::-1]
     if grid_steps(family) == 2:  # the edge k of the reversed cell is the edge n - 2 - k
         back += [n + k % n for k in range(n - 2, -2, -1)] + list(range(2 * n, NODES_PER_CELL[family]))
