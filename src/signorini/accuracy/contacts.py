@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree
 from signorini.accuracy.meshes import is_linear
 from signorini.accuracy.recovery import StressError
 from signorini.accuracy.sides import side_errors
-from signorini.arrays import Array, IntArray, padded
+from signorini.arrays import Array, BoolArray, IntArray, among, padded
 from signorini.fem.boundary import Boundary, boundary
 from signorini.fem.stress import DeformedBodies
 from signorini.model.model import Model
@@ -109,6 +109,29 @@ class _Surface:
         """Pressures (n,) and frictions (n, d) at the pairs of a contact, which are at some of the corners."""
         return _split(self.vectors[rows], result.normals)
 
+    def areas_over_own(self, result: ContactResult, places: Array, opposite: BoolArray) -> Array:
+        """(n,) Area that what is opposite to the facets at a pair has, over that of these; 0 where nothing is.
+
+        Normals fan out where a side is curved: a gap makes areas opposite larger than its tilt alone does.
+
+        Parameters
+        ----------
+        result : of the contact
+        places : (n, d) opposite to the pairs, length
+        opposite : (n,) where something is
+        """
+        count, x = len(self.side.points), self.side.points
+        there, known = x.copy(), among([result.node[opposite]], count)
+        there[result.node] = places
+        ends = self.side.blocks[0].corner_nodes
+        ends = ends[known[ends].all(axis=1)]
+        sums = [
+            np.bincount(ends.ravel(), np.repeat(np.linalg.norm(np.diff(at[ends], axis=1)[:, 0], axis=1), 2), count)
+            for at in (there, x)
+        ]
+        over, under = (total[result.node] for total in sums)
+        return np.asarray(over / np.where(under > 0.0, under, 1.0))
+
     def opposite_tractions(
         self, result: ContactResult, own: _Surface, rows: IntArray, weights: Array
     ) -> tuple[Array, Array]:
@@ -120,10 +143,12 @@ class _Surface:
         own : surface of the side that has the pairs
         rows, weights : (n, 2) corners that the pairs are between, and of both; 0 for what is beyond an end
         """
-        vectors, normals = (np.einsum("na,nai->ni", weights, part[rows]) for part in (self.vectors, self.normals))
-        facing = np.abs(np.einsum("ni,ni->n", normals, own.normals[np.searchsorted(own.nodes, result.node)]))
-        beyond = facing == 0.0
-        pressing, shear = _split(-vectors / np.where(beyond, 1.0, facing)[:, None], result.normals)
+        vectors, places = (
+            np.einsum("na,nai->ni", weights, part[rows]) for part in (self.vectors, self.side.points[self.nodes])
+        )
+        areas = own.areas_over_own(result, places, weights.any(axis=1))
+        beyond = areas == 0.0
+        pressing, shear = _split(-vectors * areas[:, None], result.normals)
         return np.where(beyond, result.pressure, pressing), np.where(beyond[:, None], result.shear, shear)
 
 

@@ -15,6 +15,7 @@ from signorini.accuracy.rest_of_skin import with_rest, without_rest
 from signorini.accuracy.sector_sides import sector_twins
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
+from signorini.fem.jacobian import determinants
 from signorini.meshing.simplices import Curve, Simplices, corner_numbers
 from signorini.model.accuracy import Accuracy
 from signorini.model.links import Equation, Term
@@ -175,4 +176,4 @@ def is_linear(model: Model) -> bool:
 def _sizes(simplices: Simplices) -> Array:
     """(m,) Areas or volumes of simplices, but for a factor."""
     corners = simplices.points[simplices.cells]
-    return np.asarray(np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])))
+    return np.asarray(np.abs(determinants(corners[:, 1:] - corners[:, :1])))

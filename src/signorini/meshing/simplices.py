@@ -117,10 +117,11 @@ class Simplices:
             if not asked.any():
                 break
             halves.halve(longest[asked], boundaries, curves)
-            cells, source = halves.bisected(cells, asked)
+            cells, source = halves.bisected(cells, asked, longest)
             origin = origin[source]
-            for name, facets in boundaries.items():
-                boundaries[name] = halves.bisected_all(facets)
+            for name in curves:  # of the others nothing is asked before the end
+                boundaries[name] = halves.bisected_all(boundaries[name])
+        boundaries = {name: halves.bisected_all(facets) for name, facets in boundaries.items()}
         parents = np.vstack([np.repeat(np.arange(len(self.points))[:, None], 2, axis=1), halves.ends])
         return replace(
             self,
@@ -227,8 +228,10 @@ class _Halves:
         bend = _bend(self.bends, keys)
         at = self.points[ends].mean(axis=1) + bend
         for name, curve in curves.items():
-            own = np.isin(keys, edge_keys(boundaries[name]))
-            if own.any():
+            of_boundary = edge_keys(boundaries[name]).ravel()
+            own = np.minimum(np.searchsorted(keys, of_boundary), len(keys) - 1)
+            own = own[keys[own] == of_boundary] if len(keys) else own[:0]
+            if len(own):
                 at[own] = curve(at[own])
         corner = len(self.points) + np.arange(len(keys))
         self._keys, self._corner = merged((self._keys, self._corner), (keys, corner))
@@ -252,9 +255,11 @@ class _Halves:
     def longest(self, simplices: IntArray) -> tuple[BoolArray, IntArray]:
         """(m,) Which simplices have a halved edge, and the key of the longest edge of each."""
         asked: BoolArray = np.count_nonzero(self._ended[simplices], axis=1) > 1  # most have no such corners
-        asked[asked] = (self.corner(edge_keys(simplices[asked])) >= 0).any(axis=1)
+        if asked.any():
+            asked[asked] = (self.corner(edge_keys(simplices[asked])) >= 0).any(axis=1)
         longest = np.full(len(simplices), -1)
-        longest[asked] = self.longest_edges(simplices[asked])
+        if asked.any():
+            longest[asked] = self.longest_edges(simplices[asked])
         return asked, longest
 
     def longest_edges(self, simplices: IntArray) -> IntArray:
@@ -264,10 +269,16 @@ class _Halves:
         length = np.einsum("mei,mei->me", ends, ends)
         return np.asarray(np.where(length == length.max(axis=1, keepdims=True), keys, -1).max(axis=1))
 
-    def bisected(self, simplices: IntArray, asked: BoolArray) -> tuple[IntArray, IntArray]:
-        """Simplices with those asked for in halves, and the simplex that each comes from."""
-        own = simplices[asked]
-        keys, longest = edge_keys(own), self.longest(own)[1]
+    def bisected(self, simplices: IntArray, asked: BoolArray, longest: IntArray) -> tuple[IntArray, IntArray]:
+        """Simplices with those asked for in halves, and the simplex that each comes from.
+
+        Parameters
+        ----------
+        simplices, asked : all, and which
+        longest : (m,) keys of their longest edges, where they are asked for
+        """
+        own, longest = simplices[asked], longest[asked]
+        keys = edge_keys(own)
         edge = np.argmax(keys == longest[:, None], axis=1)
         middle, row = self.corner(longest), np.arange(len(own))
         first, second = own.copy(), own.copy()
@@ -284,7 +295,7 @@ class _Halves:
             asked &= self.corner(longest) >= 0
             if not asked.any():
                 break
-            facets, _ = self.bisected(facets, asked)
+            facets, _ = self.bisected(facets, asked, longest)
         return facets
 
 

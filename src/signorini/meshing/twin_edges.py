@@ -62,6 +62,8 @@ def halved_twins(twins: IntArray, corner: Callable[[IntArray], IntArray]) -> Int
     twins : (k, 4), see `twin_edges`
     corner : in the middles of edges, -1 of those that are not halved
     """
+    if not len(twins):
+        return twins
     middle, other = (corner(edge_key(*twins[:, ends].T)) for ends in ([0, 1], [2, 3]))
     halved = middle >= 0
     own, middles = twins[halved], np.column_stack([middle, other])[halved]
