@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.accuracy.recovery import Recovery
+from signorini.accuracy.recovery import StressRecovery
 from signorini.fem.space import make_space
 from signorini.fem.stress import DeformedBodies
 from signorini.meshing.solid import box
@@ -25,7 +25,7 @@ MESHES = PLANE | SOLID
 def found(mesh, displacement, kind=""):
     model = sg.Model(mesh, bodies=[sg.Body(name, STEEL) for name in mesh.bodies], kind=kind)
     space = make_space(model.mesh, kind=model.kind)
-    return Recovery(space, model).error(DeformedBodies.of(space, model, displacement(mesh.points)))
+    return StressRecovery(space, model).error(DeformedBodies.of(space, model, displacement(mesh.points)))
 
 
 @pytest.mark.parametrize("name", MESHES, ids=str)

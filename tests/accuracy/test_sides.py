@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 import signorini as sg
 from signorini.accuracy.contacts import trace_errors
-from signorini.accuracy.recovery import Recovery
+from signorini.accuracy.recovery import StressRecovery
 from signorini.accuracy.sides import side_errors
 from signorini.fem.boundary import boundary
 from signorini.fem.space import make_space
@@ -112,8 +112,30 @@ def test_stresses_of_both_bodies_press_alike():
     mesh = sg.solve(model, accuracy=sg.Accuracy(0.02, nodes=12_000)).model
     solution = sg.solve(mesh)
     deformed = DeformedBodies.of(make_space(mesh.mesh, kind=mesh.kind), mesh, solution.last.displacement)
-    found = trace_errors(deformed, solution.last.contacts, Recovery(deformed.space, mesh).error(deformed))
+    found = trace_errors(deformed, solution.last.contacts, StressRecovery(deformed.space, mesh).error(deformed))
     assert np.sqrt(found.pressure / found.scale) < 0.02
     for name in ("upper.arc", "lower.arc"):
         own = boundary(deformed.space, name, ("contact",)).corner_nodes
         assert found.nodes[own].sum() > 0.3 * found.nodes.sum()
+
+
+def test_areas_opposite_grow_across_a_gap():
+    """A ring in another that is a fifth larger: forces balance, so tractions of the outer one are a sixth smaller."""
+    rings = {
+        name: sg.annulus(
+            inner=inner, outer=inner + 0.3, n_radial=6, n_angular=24, angle=90.0, cells="triangle", order=2
+        )
+        for name, inner in (("core", 0.7), ("shell", 1.2))
+    }
+    cuts = {"start": (None, 0.0), "end": (0.0, None)}
+    model = sg.Model(
+        sg.join(rings),
+        bodies=[sg.Body(name, coarse.SOFT) for name in rings],
+        supports=[sg.Support(f"{name}.{cut}", u=u) for name in rings for cut, u in cuts.items()],
+        loads=[sg.Load("core.inner", pressure=40.0)],
+        contacts=[sg.Contact("core.outer", "shell.inner", name="seat")],
+    )
+    solution = sg.solve(model)
+    deformed = DeformedBodies.of(make_space(model.mesh, kind=model.kind), model, solution.last.displacement)
+    found = trace_errors(deformed, solution.last.contacts, StressRecovery(deformed.space, model).error(deformed))
+    assert np.sqrt(found.pressure / found.scale) < 0.02

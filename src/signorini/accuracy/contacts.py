@@ -146,7 +146,7 @@ class _Surface:
         vectors, places = (
             np.einsum("na,nai->ni", weights, part[rows]) for part in (self.vectors, self.side.points[self.nodes])
         )
-        areas = own.areas_over_own(result, places, weights.any(axis=1))
+        areas = own.areas_over_own(result, places, np.asarray(weights.any(axis=1)))
         beyond = areas == 0.0
         pressing, shear = _split(-vectors * areas[:, None], result.normals)
         return np.where(beyond, result.pressure, pressing), np.where(beyond[:, None], result.shear, shear)

@@ -9,7 +9,7 @@ import numpy as np
 
 from signorini.accuracy.contacts import ContactErrors, level_errors, trace_errors
 from signorini.accuracy.influence import influence
-from signorini.accuracy.recovery import Recovery
+from signorini.accuracy.recovery import StressRecovery
 from signorini.arrays import Array
 from signorini.fem.space import make_space
 from signorini.fem.stress import DeformedBodies
@@ -71,7 +71,7 @@ def estimate(history: History, before: Before | None = None) -> Estimate:
     model = history.model
     space, flat = make_space(model.mesh, kind=model.kind), model.dimension == 2
     traced, carried, pairs = list[ContactErrors](), list[ContactErrors](), 0
-    recovery = Recovery(space, model)
+    recovery = StressRecovery(space, model)
     squares, lost, norms = np.zeros(model.mesh.number_of_cells), [0.0], [0.0]
     weights = np.zeros(model.mesh.number_of_cells)
     for k, step in enumerate(history.steps):

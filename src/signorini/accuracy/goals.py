@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.accuracy.estimate import Estimate
 from signorini.accuracy.output_error import OutputLevel, output_error
-from signorini.accuracy.recovery import Recovery
+from signorini.accuracy.recovery import StressRecovery
 from signorini.arrays import Array
 from signorini.derivative.derivative import TapedHistory
 from signorini.derivative.dual import dual_displacement
@@ -88,7 +88,7 @@ class Goal:
         point = view.points[view.number(output.load_factor)]
         motion = view.displacement(view.number(output.load_factor))
 
-        recovery = Recovery(view.space, model)
+        recovery = StressRecovery(view.space, model)
 
         def squares(u: Array, factors: Mapping[str, float]) -> Array:
             at_nodes = view.space.at_nodes(u)[: len(model.mesh.points)]

@@ -58,7 +58,7 @@ class StressError:
         return float(np.sqrt(self.squares.sum() / self.norm_square)) if self.norm_square > 0.0 else 0.0
 
 
-class Recovery:
+class StressRecovery:
     """Recovered stresses of bodies on one mesh, of as many displacements as there are: patches are found once.
 
     Around a corner of a body a polynomial of the degree of the displacements fits the stresses at the best points of
@@ -80,7 +80,7 @@ class Recovery:
     >>> model = sg.Model(sg.rectangle(nx=2), bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.0))])
     >>> space = make_space(model.mesh)
     >>> stretched = DeformedBodies.of(space, model, 0.5 * model.mesh.points)
-    >>> error = Recovery(space, model).error(stretched)
+    >>> error = StressRecovery(space, model).error(stretched)
     >>> round(error.norm_square, 9), round(error.relative, 6)
     (0.5, 0.0)
     """
