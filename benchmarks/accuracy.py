@@ -93,7 +93,6 @@ WORK_HEAD = (
 )
 LONG: tuple[tuple[str, Callable[[], Model], float], ...] = (
     ("two cylinders, friction 0.3", coarse.two_cylinders, 0.003),
-    ("two cylinders, friction 0.3", coarse.two_cylinders, 0.001),
     ("rounded punch, friction 0.3", coarse.rounded_punch, 0.001),
     ("the paper's cylinder, pressed, half, pressed", lambda: pressed_again(coarse.cylinder()), 0.001),
     ("the paper's cylinder, linear triangles", lambda: coarse.cylinder(order=1), 0.002),
