@@ -62,14 +62,13 @@ class Responses:
         given = flat[acting]
         return np.concatenate([given @ interface.A[acting] - h.ravel(), given @ interface.R[acting]])
 
-    def respond(self, state: IntArray, free: Array, *, refined: bool = False) -> tuple[Array, Array]:
+    def respond(self, state: IntArray, free: Array) -> tuple[Array, Array]:
         """Motion h and force r, (2, n), with ``G h - W r = b``, h = 0 where a state holds and r = 0 where it is open.
 
         Parameters
         ----------
         state : (n,)
         free : (2n + k,) of the load
-        refined : whether what its equations lack is solved for once more
 
         Raises
         ------
@@ -79,9 +78,6 @@ class Responses:
         self._move_to(state)
         n, unknowns = self.problem.pairs, self.inverse.unknowns
         x, seen = self.inverse.solve(free)
-        if refined:
-            more, seen = self.inverse.solve(seen)
-            x += more
         full = np.zeros(len(free))
         full[unknowns] = x
         r = full[: 2 * n].reshape(2, n)
@@ -98,15 +94,14 @@ class Responses:
             self._state = state.copy()
 
     def rates(self, state: IntArray, load: Array) -> Rates:
-        """The rates of a state, (n,), under a load rate, (2n,), to the last digits: steep bounds see those in events.
+        """The rates of a state, (n,), under a load rate, (2n,), refined; raises SingularState."""
+        h, r = self.respond(state, self.free(load))
+        return self.refined(Rates(state=state, h=h, r=r), load)
 
-        Raises
-        ------
-        SingularState
-            Where the state has no unique response.
-        """
-        h, r = self.respond(state, self.free(load), refined=True)
-        return Rates(state=state, h=h, r=r)
+    def refined(self, rates: Rates, load: Array) -> Rates:
+        """Rates under a load rate, (2n,), to the last digits: a steep part of a bound sees those in its events."""
+        h, r = self.balanced(rates.state, load, rates.h, rates.r)
+        return Rates(state=rates.state, h=h, r=r)
 
     def balanced(self, state: IntArray, b: Array, h: Array, r: Array) -> tuple[Array, Array]:
         """A response to b with one step of refinement, where equilibrium lacks more than rounding.
