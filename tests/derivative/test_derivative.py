@@ -276,6 +276,33 @@ def test_grazing_is_refused(solved):
         assert grazing.event
 
 
+@pytest.mark.parametrize("increments", [None, 2], ids=["path", "increments"])
+def test_a_body_that_moves_freely_is_refused(increments):
+    """A plate between two walls that it touches without a force, and nothing holds along the normal."""
+    blocks = {"plate": (1.0, 0.5, 0.0, 1.0), "low": (1.2, 1.0, -0.1, 0.0), "up": (1.2, 1.0, -0.1, 1.5)}
+    made = {
+        name: sg.rectangle(width=width, height=height, nx=4, ny=1, origin=(x, y))
+        for name, (width, height, x, y) in blocks.items()
+    }
+    held = {"low.bottom": (0.0, 0.0), "up.top": (0.0, 0.0), "plate.left": (0.0, None)}
+    model = sg.Model(
+        sg.join(made),
+        bodies=[sg.Body(name, sg.Elastic(E=1000.0, nu=0.3)) for name in made],
+        supports=[sg.Support(side, u=u) for side, u in held.items()],
+        loads=[sg.Load("plate.right", traction=(30.0, 0.0), name="pull")],
+        contacts=[
+            sg.Contact("plate.bottom", "low.top", name="lower"),
+            sg.Contact("plate.top", "up.bottom", name="upper"),
+        ],
+        steps=[sg.Step(increments=increments)],
+    )
+    solution = sg.solve(model, tape=True)
+    with pytest.raises(sg.InputError, match="a body moves freely"):
+        solution.derivative(sg.pressure("lower").peak)
+    with pytest.raises(sg.InputError, match="a body moves freely"):
+        solution.tangent(E="plate")
+
+
 def test_a_history_without_a_tape_is_solved_again(solved):
     model, solution, derivatives = solved
     assert solution.tape is not None

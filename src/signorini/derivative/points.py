@@ -8,6 +8,7 @@ the end of a straight part of the loads or of an increment, whose load is given.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, pairwise
@@ -38,6 +39,7 @@ from signorini.derivative.step_friction import in_force
 from signorini.engine.tape import Leg, Tape
 from signorini.errors import InputError
 from signorini.friction.history import PathState
+from signorini.friction.history.plane.state_inverse import SingularState
 from signorini.friction.history.segment import Breakpoint
 from signorini.law.states import OPEN, SLIP_PLUS
 from signorini.solution.state import LoadPoint
@@ -97,7 +99,21 @@ class TapePoint:
         """(d, n) Of motions and forces per unit of the part of the leg; None in equal increments."""
         if self.h_rate is not None and self.r_rate is not None:
             return self.h_rate, self.r_rate
-        return None if self.load_rate is None else self.system.respond(self.states, self.load_rate)
+        if self.load_rate is None:
+            return None
+        with self.determined():
+            return self.system.respond(self.states, self.load_rate)
+
+    @contextmanager
+    def determined(self) -> Iterator[None]:
+        """Refuse states, of this point or of those that go with it, that leave motions or forces undetermined."""
+        try:
+            yield
+        except SingularState:
+            raise InputError(
+                f"at load factor {self.load_factor:.9g} a body moves freely, or contacts share what they carry as they "
+                "like: derivatives are not unique; expected a history in which supports or sticking contacts hold it"
+            ) from None
 
     @cached_property
     def piece_end(self) -> PieceEnd:

@@ -70,30 +70,49 @@ def forward(points: Sequence[TapePoint], change: AtOnce) -> list[PointChange]:
     found: list[PointChange] = []
     bounds: dict[InterfaceSystem, BoundTerm | None] = {}
     every = with_trials(points)
-    at_once, memory = dict(zip(every, _seen(every, change.moved(every)), strict=False)), np.zeros((0, 0))
-    for i, point in enumerate(points):
-        system = point.system
-        if system not in bounds:
-            bounds[system] = change.bound(system)
-        system.ahead((points[j].system, points[j].states) for j in range(i, len(points)))
-        whole = np.zeros((2, system.directions, len(system.condensed.active)))
-        memory = memory if i else np.zeros_like(whole[0, 1:])
-        bound, part = bounds[system], 0.0
-        h, r = _at_load(point, at_once.get(point), memory, bound)
-        if point.at_event:
-            event = point.event
-            part = -(event.change(h, r) + (0.0 if bound is None else _of_bound(event, bound))) / event.rate
-        elif point.quiet is not None and i:
-            one, two = (found[k].part if k >= 0 and points[k].leg == point.leg else 0.0 for k in (i - 1, i - 2))
-            tried = [_at_load(trial, at_once.get(trial), memory, bound)[1] for trial in point.trials]
-            part = point.quiet.part(one, two, found[-1].r[1:, system.active] / system.root, tried)
-        if part:
-            h_rate, r_rate = _rates(point)
-            h, r = h + part * h_rate, r + part * r_rate
-        whole[0][:, system.active], whole[1][:, system.active] = h / system.root, r * system.root
-        memory = whole[0, 1:]
-        found.append(PointChange(h=whole[0], r=whole[1], part=part, bound=bound))
+    at_once = dict(zip(every, _seen(every, change.moved(every)), strict=False))
+    for point in points:
+        if point.system not in bounds:
+            bounds[point.system] = change.bound(point.system)
+        with point.determined():
+            found.append(_following(points, found, bounds[point.system], at_once))
     return found
+
+
+def _following(
+    points: Sequence[TapePoint],
+    found: Sequence[PointChange],
+    bound: BoundTerm | None,
+    at_once: Mapping[TapePoint, Array],
+) -> PointChange:
+    """What a parameter changes at the point after those that are found.
+
+    Parameters
+    ----------
+    points : of the history
+    found : what it changes at those before
+    bound : what it changes of the friction; None for nothing
+    at_once : by point, (d n + k,) what its equations see of what moves at once; empty for nothing
+    """
+    i = len(found)
+    point, part = points[i], 0.0
+    system = point.system
+    system.ahead((points[j].system, points[j].states) for j in range(i, len(points)))
+    whole = np.zeros((2, system.directions, len(system.condensed.active)))
+    memory = found[-1].h[1:] if found else np.zeros_like(whole[0, 1:])
+    h, r = _at_load(point, at_once.get(point), memory, bound)
+    if point.at_event:
+        event = point.event
+        part = -(event.change(h, r) + (0.0 if bound is None else _of_bound(event, bound))) / event.rate
+    elif point.quiet is not None and found:
+        one, two = (found[k].part if k >= 0 and points[k].leg == point.leg else 0.0 for k in (i - 1, i - 2))
+        tried = [_at_load(trial, at_once.get(trial), memory, bound)[1] for trial in point.trials]
+        part = point.quiet.part(one, two, found[-1].r[1:, system.active] / system.root, tried)
+    if part:
+        h_rate, r_rate = _rates(point)
+        h, r = h + part * h_rate, r + part * r_rate
+    whole[0][:, system.active], whole[1][:, system.active] = h / system.root, r * system.root
+    return PointChange(h=whole[0], r=whole[1], part=part, bound=bound)
 
 
 def _at_load(point: TapePoint, load: Array | None, memory: Array, bound: BoundTerm | None) -> tuple[Array, Array]:
@@ -141,7 +160,8 @@ def backward(
     back = _Back(points, weights, direct)
     i = max(weights, default=-1)
     while i >= 0:
-        i -= back.to(i)
+        with points[i].determined():
+            i -= back.to(i)
     stacks = tuple(one.stack(direct) for one in back.passed.values() if one.numbers)
     return Adjoint(stacks=stacks, bounds={system: one.bound for system, one in back.passed.items()})
 
