@@ -41,14 +41,19 @@ ROOT_AND_FEW_CORES = {
 }
 
 
-def usage(team: Team) -> tuple[float, float]:
-    """Operations of PETSc so far, and the most memory, bytes."""
+def usage(team: Team) -> tuple[float, float, float]:
+    """Operations of PETSc so far, the most memory, bytes, and what this rank has sent and received, bytes."""
     del team
     from petsc4py import PETSc
 
-    if not PETSc.Log.isActive():
+    so_far = PETSc.Log.Event("so far")
+    if PETSc.Log.isActive():
+        so_far.end()
+    else:
         PETSc.Log.begin()
-    return float(PETSc.Log.getFlops()), float(peak_memory())
+    exchanged = so_far.getPerfInfo()["messageLength"]
+    so_far.begin()
+    return float(PETSc.Log.getFlops()), float(peak_memory()), float(exchanged)
 
 
 def measured(lower: int, upper: int) -> dict[str, Any]:
@@ -65,7 +70,8 @@ def measured(lower: int, upper: int) -> dict[str, Any]:
     size = float(np.abs(one.pressure).max())
     flops = np.array([[b[0] - a[0] for a, b in zip(*times, strict=True)] for times in ((before, made), (made, after))])
     bodies: Any = prepared.solver.bodies  # type: ignore[attr-defined]
-    pairs = np.bincount(bodies.owner, minlength=team.size)
+    exchanged = sum(a[2] - m[2] for m, a in zip(made, after, strict=True))
+    pairs = np.bincount(bodies.on_ranks.owner, minlength=team.size)
     return {
         "unknowns": model.number_of_dofs,
         "pairs": history.pairs,
@@ -75,6 +81,7 @@ def measured(lower: int, upper: int) -> dict[str, Any]:
         "most pairs": int(pairs.max()),
         "work": float(flops[1].sum() / 1e9),
         "balance": float(flops[1].max() / flops[1].mean()),
+        "sent": float(exchanged / 2e6),  # every message is counted where it starts and where it ends
         "memory": max(each[1] for each in after) / 1e9,
         "least memory": min(each[1] for each in after) / 1e9,
         "apart": float(
@@ -145,6 +152,7 @@ def row(ranks: int, found: dict[str, Any]) -> list[object]:
         found["most pairs"],
         f"{found['work']:.2f}",
         f"{found['balance']:.2f}",
+        f"{found['sent']:.1f}",
         f"{found['least memory']:.2f} - {found['memory']:.2f}",
         found["states"],
         f"{found['apart']:.0e}",
@@ -171,6 +179,7 @@ HEAD = [
     "pairs, most",
     "Gflop of PETSc",
     "of a rank, most / mean",
+    "MB sent",
     "GB a rank",
     "other states",
     "largest difference",

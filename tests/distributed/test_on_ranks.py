@@ -16,7 +16,7 @@ from signorini.cli import main
 from signorini.distributed import ranks
 from signorini.gallery.cubes import cubes
 from signorini.gallery.sliding import dragged_cylinder
-from tests.helpers.on_ranks import MODELS
+from tests.helpers.on_ranks import MODELS, WAYS
 from tests.helpers.rank_files import assert_whole, sources
 
 HOUSE = Path(__file__).parents[2]
@@ -69,6 +69,20 @@ def test_same_answers_on_several(number):
     assert done.returncode == 0, done.stderr
     answers = json.loads(done.stdout)
     assert answers.keys() == MODELS.keys()
+    for found in answers.values():
+        hold(found)
+
+
+@with_ranks
+@pytest.mark.slow
+@pytest.mark.parametrize("cut", WAYS)
+def test_answers_do_not_depend_on_where_nodes_and_pairs_are(cut):
+    """Three ranks: cuts that METIS would not make, and pairs that are not shared evenly."""
+    names = ["cubes", "mortar", "several steps", "held by contact alone"]
+    done = on_ranks(3, "-m", "tests.helpers.on_ranks", *names, "--cut", cut)
+    assert done.returncode == 0, done.stderr
+    answers = json.loads(done.stdout)
+    assert list(answers) == names
     for found in answers.values():
         hold(found)
 

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 
 import signorini as sg
-from signorini.distributed.partition import owners
+from signorini.distributed.partition import owners, pair_owners
 from signorini.distributed.pieces import pieces, whole_nodes
 from signorini.engine.condensation import whole_stiffness
 from signorini.engine.examine import examine
@@ -54,6 +55,30 @@ def test_entries_are_shared_evenly_where_a_contact_is():
             seen[node].update(group.tolist())
     shares = np.bincount(owners(examined.space, B, RANKS), weights=[len(near) for near in seen])
     assert shares.max() <= 1.05 * shares.mean()
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3, 4, 7])
+@pytest.mark.parametrize("a", [0, 1, 5, 169])
+def test_pairs_are_shared_evenly_wherever_the_cut_is(a, ranks):
+    """A contact on the first rank as a whole, on the last one, and one whose pairs see anything."""
+    random = np.random.default_rng(a + ranks)
+    centres = random.random((ranks, 3))
+    alone = np.tile(np.eye(ranks)[0], (a, 1))
+    for seen in (alone, alone[:, ::-1], random.integers(0, 3, (a, ranks))):
+        owner = pair_owners(sp.csr_array(seen), random.random((a, 3)), centres)
+        assert owner.shape == (a,)
+        assert np.bincount(owner, minlength=ranks).max() <= -(-a // ranks)
+
+
+def test_pairs_stay_where_their_nodes_are_as_far_as_shares_allow():
+    """Even shares are left as they are; what is over goes where some of its nodes are, or to the nearest rank."""
+    at, centres = np.arange(6.0)[:, None], np.array([[2.0], [9.0], [-9.0]])
+    own = np.array([2, 0, 1, 1, 2, 0])
+    np.testing.assert_array_equal(pair_owners(sp.csr_array(4 * np.eye(3)[own]), at, centres), own)
+    whole = np.array([[4, 0, 0]] * 6)
+    np.testing.assert_array_equal(pair_owners(sp.csr_array(whole), at, centres), [2, 2, 0, 0, 1, 1])
+    whole[[0, 2], 1] = 1
+    np.testing.assert_array_equal(pair_owners(sp.csr_array(whole), at, centres), [1, 2, 1, 2, 0, 0])
 
 
 def test_too_many_ranks_for_a_mesh():

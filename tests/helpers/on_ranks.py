@@ -1,7 +1,10 @@
-"""Models that ranks solve, and what they say of them: ``mpiexec -n 2 python -m tests.helpers.on_ranks NAME ...``."""
+"""Models that ranks solve, and what they say of them: ``mpiexec -n 2 python -m tests.helpers.on_ranks NAME ...``.
 
+With ``--cut WAY`` nodes or pairs are where no METIS and no even share would have them.
+"""
+
+import argparse
 import json
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -115,12 +118,47 @@ def compared(name):
     return found
 
 
-def main(names):
+def scattered(count, ranks):
+    """Nodes or pairs on ranks at random, all of which have some."""
+    return np.random.default_rng(3).permutation(np.arange(count) % ranks)
+
+
+def on_the_last(B, count, d, ranks):
+    """Nodes that pairs see on the last rank, so that the contact is there as a whole; others on any of the rest."""
+    owner = scattered(count, ranks - 1)
+    seen = B.indices // d
+    owner[seen[seen < count]] = ranks - 1  # obstacles, which are seen too, are behind the nodes
+    return owner
+
+
+def placed(way):
+    """Put nodes or pairs elsewhere from now on; the first rank alone asks where they are."""
+    from signorini.distributed import bodies, stiffness  # needs PETSc
+
+    if way == "scattered nodes":
+        stiffness.owners = lambda space, _, ranks: scattered(len(space.mesh.points), ranks)
+    elif way == "the contact on one":
+        stiffness.owners = lambda space, B, ranks: on_the_last(B, len(space.mesh.points), space.components, ranks)
+    elif way == "scattered pairs":
+        bodies.pair_owners = lambda _, at, centres: scattered(len(at), len(centres))
+    elif way == "all pairs on one":
+        bodies.pair_owners = lambda _, at, centres: np.full(len(at), len(centres) - 1)
+
+
+WAYS = ("scattered nodes", "the contact on one", "scattered pairs", "all pairs on one")
+
+
+def main():
     """Print what is found, by name."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("names", nargs="*", help="models; all of them where none is named")
+    parser.add_argument("--cut", choices=WAYS)
+    options = parser.parse_args()
     with sg.ranks() as first:
         if first:
-            print(json.dumps({name: compared(name) for name in names or MODELS}))
+            placed(options.cut)
+            print(json.dumps({name: compared(name) for name in options.names or MODELS}))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -11,6 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.distributed.partition import pair_owners
 from signorini.distributed.parts import AskedOfPairs, RowsOfBodies, answer_pairs, hold_bodies, hold_pairs
 from signorini.distributed.ranks import PETSC
 from signorini.distributed.stiffness import StiffnessOnRanks
@@ -34,6 +35,7 @@ class RowsOnRanks:
     number : under which they hold them
     blocks : of the unknowns, those of the first rank first
     ends : (ranks + 1,) where the unknowns of the ranks begin and end
+    centres : (ranks, d) of the nodes of every rank, length
 
     Parameters
     ----------
@@ -46,13 +48,15 @@ class RowsOnRanks:
         self.team, self.number, self._K = K.team, K.team.kept(self), K
         d = space.components
         known, index = np.unique(constraints.nodes, return_inverse=True)
-        owner = K.owner_of(known)
+        owner, points = K.owner_of(known), space.mesh.points
         block = np.empty(len(known), dtype=np.int64)
         block[np.argsort(owner, kind="stable")] = np.arange(len(known))
         axis = constraints.leaders % d
         self.blocks = Blocks(size=d, count=len(known), place=d * block[index] + axis)
         self.ends = d * np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=self.team.size))])
-        arm = arms(space.mesh.points, constraints.nodes)
+        nodes = np.bincount(K.owner, minlength=self.team.size)
+        self.centres = np.stack([np.bincount(K.owner, x, self.team.size) for x in points.T], axis=1) / nodes[:, None]
+        arm = arms(points, constraints.nodes)
         self.team.everywhere(
             hold_bodies, K.number, self.number, pieces=self._rows(constraints.transform, arm, axis, rigid)
         )
@@ -86,6 +90,19 @@ class RowsOnRanks:
         """Values of free displacements (z,) on the unknowns of every rank."""
         return np.split(self.blocks.spread(values), self.ends[1:-1])
 
+    def pair_owners(self, columns: sp.csr_array, at: Array) -> IntArray:
+        """(a,) The rank that has each pair, see :func:`signorini.distributed.partition.pair_owners`.
+
+        Parameters
+        ----------
+        columns : (d a, unknowns) relative displacements of the pairs
+        at : (a, d) where the pairs are, length
+        """
+        rank = np.searchsorted(self.ends, columns.indices, side="right") - 1
+        pair = np.repeat(np.arange(columns.shape[0]) % max(len(at), 1), np.diff(columns.indptr))
+        shape = (len(at), self.team.size)
+        return pair_owners(sp.csr_array((np.ones(len(pair)), (pair, rank)), shape=shape), at, self.centres)
+
 
 class PairsHeld:
     """Pairs on the ranks, until nobody asks for them.
@@ -93,20 +110,23 @@ class PairsHeld:
     Attributes
     ----------
     number : under which they are held
+    at : (a, d) where the pairs are, length
+    owner : (a,) rank of every pair
     felt : of every rank the stiffness of the bodies at its pairs, (a,)
 
     Parameters
     ----------
     rows : the bodies
     B : (d a, z) relative displacements of the pairs
-    owner : (a,) rank of every pair
+    at : (a, d) where the pairs are, length
     """
 
-    def __init__(self, rows: RowsOnRanks, B: sp.csr_array, owner: IntArray) -> None:
-        self.number = rows.team.kept(self)
-        columns, a = rows.blocks.columns(B), len(owner)
-        steps = a * np.arange(rows.blocks.size)
-        pieces = (columns[(np.flatnonzero(owner == r)[:, None] + steps).ravel()] for r in range(rows.team.size))
+    def __init__(self, rows: RowsOnRanks, B: sp.csr_array, at: Array) -> None:
+        self.number, self.at = rows.team.kept(self), at
+        columns = rows.blocks.columns(B)
+        self.owner = rows.pair_owners(columns, at)
+        steps = len(at) * np.arange(rows.blocks.size)
+        pieces = (columns[(np.flatnonzero(self.owner == r)[:, None] + steps).ravel()] for r in range(rows.team.size))
         self.felt = rows.team.everywhere(hold_pairs, rows.number, self.number, pieces=pieces)
 
 
@@ -118,13 +138,11 @@ class BodiesOnRanks(IteratedPairs):
     ----------
     rows : the bodies
     B : (d a, z) relative displacements of the pairs
-    owner : (a,) rank of every pair
     on_ranks : the pairs there
     """
 
     rows: RowsOnRanks
     B: sp.csr_array
-    owner: IntArray
     on_ranks: PairsHeld
     name: str = PETSC
 
@@ -150,14 +168,13 @@ class BodiesOnRanks(IteratedPairs):
         kept : (n,) pairs that stay
         """
         own = kept[self.pairs]
-        B, owner = self.B[np.flatnonzero(np.tile(own, self.directions))], self.owner[own]
-        held = PairsHeld(self.rows, B, owner)
-        return replace(self, B=B, owner=owner, on_ranks=held, **self.parts_among(kept))
+        B = self.B[np.flatnonzero(np.tile(own, self.directions))]
+        return replace(self, B=B, on_ranks=PairsHeld(self.rows, B, self.on_ranks.at[own]), **self.parts_among(kept))
 
     def _asked(self, load: IncrementLoad, free: Array, forces: Array) -> Iterator[AskedOfPairs]:
         pressing, start = self.rows.parts(load.f), self.rows.parts(free)
         for rank in range(self.rows.team.size):
-            own = self.owner == rank
+            own = self.on_ranks.owner == rank
             yield AskedOfPairs(
                 load=replace(load, f=pressing[rank], offset=load.offset[:, own], bound=load.bound.among(own)),
                 z=start[rank],
@@ -171,27 +188,26 @@ class BodiesOnRanks(IteratedPairs):
         """Values (..., a) of all pairs from those of every rank."""
         joined = np.concatenate(parts, axis=-1)
         result = np.empty_like(joined)
-        result[..., np.argsort(self.owner, kind="stable")] = joined
+        result[..., np.argsort(self.on_ranks.owner, kind="stable")] = joined
         return result
 
 
 def make_bodies_on_ranks(
-    rows: RowsOnRanks, K: StiffnessOnRanks, B: sp.csr_array, interface: Interface, candidates: BoolArray
+    rows: RowsOnRanks, points: Array, B: sp.csr_array, interface: Interface, candidates: BoolArray
 ) -> BodiesOnRanks:
     """Put pairs on bodies that are on all ranks.
 
     Parameters
     ----------
     rows : the bodies
-    K : their pieces
+    points : (nodes, d) of the mesh, length
     B : (d n, z) relative displacements of the pairs in terms of the free displacements
     interface : the pairs
     candidates : (n,) pairs that may touch
     """
     chosen = chosen_pairs(B, interface, candidates)
-    owner = K.owner_of(interface.node[chosen.pairs])
-    held = PairsHeld(rows, chosen.B, owner)
-    felt = np.empty(len(owner))
-    felt[np.argsort(owner, kind="stable")] = np.concatenate(held.felt)
+    held = PairsHeld(rows, chosen.B, points[interface.node[chosen.pairs]])
+    felt = np.empty(len(held.owner))
+    felt[np.argsort(held.owner, kind="stable")] = np.concatenate(held.felt)
     data = chosen.data(interface, with_supple(felt, interface, chosen.pairs))
-    return BodiesOnRanks(**data, blocks=rows.blocks, rows=rows, B=chosen.B, owner=owner, on_ranks=held)
+    return BodiesOnRanks(**data, blocks=rows.blocks, rows=rows, B=chosen.B, on_ranks=held)

@@ -69,5 +69,6 @@ def solver_on_ranks(
         K.cut(constraints)
     T = constraints.transform
     rows = RowsOnRanks(K, examined.space, constraints, sp.csr_array(T.T @ examined.motions))
-    bodies = make_bodies_on_ranks(rows, K, sp.csr_array(examined.interface.B @ T), examined.interface, candidates)
+    B, points = sp.csr_array(examined.interface.B @ T), examined.space.mesh.points
+    bodies = make_bodies_on_ranks(rows, points, B, examined.interface, candidates)
     return MultiplierSolver(bodies=bodies, settings=settings)
