@@ -59,7 +59,8 @@ class Watched:
 
     def syrk(self, n, k, A, share, C, s):
         rows, into, lower = self.at(A, n, k), self.at(C, n, n), np.tril_indices(n)
-        into[lower] = ((into if share == s.one else np.zeros((n, n))) - rows @ rows.T)[lower]
+        # nobody has written what is above the diagonal
+        into[lower] = (into[lower] if share == s.one else 0.0) - (rows @ rows.T)[lower]
 
     def potrf(self, k, A, _):
         into = self.at(A, k, k)
