@@ -9,7 +9,9 @@ import pytest
 import signorini as sg
 from signorini.derivative import contact_sums
 from signorini.derivative.low_rank import state_columns
+from signorini.derivative.modulus_pairs import ModulusPairs
 from signorini.derivative.view import displacements
+from signorini.engine.prepare import prepare
 from signorini.fem.kinematics import straining_groups
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness, stiffness_change
@@ -26,6 +28,20 @@ def test_states_are_combinations_of_those_that_are_substituted_back():
         found = sum(part.displacement @ part.shares[:, i] for part in columns)
         wanted = displacements([point])[:, 0]
         assert found == pytest.approx(wanted, abs=1e-10 * np.abs(wanted).max())
+
+
+def test_of_two_bodies_one_pairing_anew_tells_what_both_moduli_change():
+    """Normals know the ratio of both moduli alone."""
+    prepared = prepare(rig())
+    seen, alone = ModulusPairs(prepared), ModulusPairs(prepared)
+    assert seen.of(0).any
+    mirrored, found = seen.of(1), alone.of(1)
+    for name in ("B", "gap"):
+        wanted, rounding = abs(getattr(found, name)).max(), 1e-15 / found.step  # of lengths and weights of about 1
+        assert abs(getattr(mirrored, name) - getattr(found, name)).max() <= 1e-7 * wanted + rounding
+    assert mirrored.step == found.step
+    for one, two in ((mirrored.low, found.low), (mirrored.high, found.high)):
+        assert abs(one.B - two.B).max() <= 1e-7 * abs(prepared.interface.B).max()
 
 
 @pytest.mark.parametrize("formulation", ["standard", "incompatible", "mean dilatation"])

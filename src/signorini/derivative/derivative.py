@@ -16,15 +16,17 @@ from signorini.arrays import Array
 from signorini.derivative.adjoint import adjoint_of
 from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import ChangeWithLocks, LoadChange, LockChange
+from signorini.derivative.edge_probe import EdgeProbe
 from signorini.derivative.functionals import value
 from signorini.derivative.moduli import ModulusChange
+from signorini.derivative.modulus_pairs import ModulusPairs
 from signorini.derivative.node_gradient import node_gradient
 from signorini.derivative.one_sided import beyond
 from signorini.derivative.parameters import change_of, names_of, shape_change
 from signorini.derivative.points import TapePoint, tape_points
-from signorini.derivative.recursion import Change, PointChange, forward
+from signorini.derivative.recursion import Change, PointChange, changed, forward
 from signorini.derivative.refusals import refuse_tape
-from signorini.derivative.validity import PathEdge, edges, on_edge, validity
+from signorini.derivative.validity import PathEdge, edges, validity
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
 from signorini.engine.tape import Tape
@@ -79,10 +81,11 @@ class TapedHistory:
     def __init__(self, tape: Tape, model: Model) -> None:
         refuse_tape(tape, model)
         self.view, self.legs = HistoryView.of(tape_points(tape)), tape.legs
-        self._edged: bool | None = None
+        self._probe = EdgeProbe(self.view.points)
         self._changes: dict[tuple[str, str], Change] = {}
         self._forward: dict[tuple[str, str], list[PointChange]] = {}
         self._locked: dict[str, Derivative] = {}
+        self._seen = ModulusPairs(self.prepared)
 
     @property
     def prepared(self) -> Prepared:
@@ -103,7 +106,7 @@ class TapedHistory:
     def on(self, points: Sequence[TapePoint]) -> TapedHistory:
         """The history with other states at some points."""
         other = copy(self)
-        other.view, other._forward = replace(self.view, points=points), {}
+        other.view, other._forward, other._probe = replace(self.view, points=points), {}, EdgeProbe(points)
         return other
 
     def forward(self, kind: str, name: str) -> list[PointChange]:
@@ -117,16 +120,15 @@ class TapedHistory:
 
     def edges(self, kind: str, name: str) -> list[PathEdge]:
         """Where a parameter has another derivative to each of its sides."""
-        if self._edged is None:
-            self._edged = any(on_edge(point) for point in self.view.points)
-        if not self._edged:
+        locks = self.view.points[-1].system.locked
+        if not self._probe or not (locks or self._probe.takes_apart(self.change(kind, name))):
             return []
         return edges(self.view, self.forward(kind, name))
 
     def change(self, kind: str, name: str) -> Change:
         """What a parameter changes at once, kept."""
         if (kind, name) not in self._changes:
-            self._changes[kind, name] = change_of(self.prepared, kind, name)
+            self._changes[kind, name] = change_of(self.prepared, kind, name, self._seen)
         return self._changes[kind, name]
 
     def holds(self, kind: str, name: str) -> Validity:
@@ -298,12 +300,7 @@ class Derivative:
 
     def _along(self, change: Change) -> float:
         """What a change changes of the output while bolts that have locked are as long as they are."""
-        points, adjoint = self._history.view.every, self._adjoint
-        found = 0.0
-        for system, friction in adjoint.bounds.items():
-            bound = change.bound(system)
-            found += 0.0 if bound is None else friction.along(bound)
-        found += change.total(points, adjoint)
+        found = changed(self._history.view.every, self._adjoint, change)
         if isinstance(change, BodyChange | ModulusChange):
             found += self._at_once(change)
         if isinstance(change, LoadChange):

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array
 from signorini.derivative.derivative import Derivative, TapedHistory, split
 from signorini.derivative.functionals import value
-from signorini.derivative.moduli import with_material
+from signorini.derivative.modulus_pairs import with_material
 from signorini.derivative.parameters import given_value, names_of
 from signorini.derivative.step_friction import coefficients
 from signorini.engine.prepare import Prepared, prepare

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -18,15 +17,11 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.condense.response import ByNodes
 from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
 from signorini.derivative.interface_system import InterfaceSystem
+from signorini.derivative.modulus_pairs import ModulusPairs
 from signorini.derivative.pair_change import PairChange, between_bodies
 from signorini.derivative.points import TapePoint, factors_of, forces_of, offsets_of
 from signorini.derivative.view import HistoryView, displacements
 from signorini.engine.prepare import Prepared
-from signorini.fem.supports import make_constraints
-from signorini.interface.interface import make_interface
-from signorini.model.model import Model
-
-_STEP = 1e-4  # of a modulus: normals of tilted sides are smooth in it, differences right to a part in 1e8
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -52,10 +47,12 @@ class ModulusChange:
     ----------
     prepared : the model
     body : number of the body
+    seen : what moduli change of the pairs of the model
     """
 
     prepared: Prepared
     body: int
+    seen: ModulusPairs
 
     @staticmethod
     def knows(prepared: Prepared, body: int) -> bool:
@@ -70,27 +67,19 @@ class ModulusChange:
         """Young's modulus, force per area."""
         return self.prepared.model.bodies[self.body].material.smallest_modulus
 
-    @cached_property
+    @property
     def pairs(self) -> PairChange:
         """What it changes of the pairs: normals of tilted sides lie nearer to the stiffer one."""
-        space, always = self.prepared.space, make_constraints(self.prepared.space, self.prepared.model)
-        low, high = (make_interface(space, model, always) for model in self._sides)
-        return PairChange.between(low, high, self.step)
+        return self.seen.of(self.body)
 
     @property
     def step(self) -> float:
         """Half of what the modulus differs by between both sides."""
-        return _STEP * self.modulus
-
-    @cached_property
-    def _sides(self) -> tuple[Model, Model]:
-        """The model with the modulus at both sides."""
-        low, high = (with_material(self.prepared.model, self.body, E=self.modulus + s * self.step) for s in (-1.0, 1.0))
-        return low, high
+        return self.seen.step(self.body)
 
     def views(self, view: HistoryView) -> tuple[HistoryView, HistoryView]:
         """What outputs are read from at both sides of the modulus, motions and forces as they are."""
-        low, high = (replace(view, model=model) for model in self._sides)
+        low, high = (replace(view, model=model) for model in self.seen.models(self.body))
         if self.tilts:
             return replace(low, interface=self.pairs.low), replace(high, interface=self.pairs.high)
         return low, high
@@ -217,20 +206,6 @@ class ModulusChange:
         """(m,) Contact dofs of the body."""
         nodes = self.prepared.constraints.nodes[system.condensed.dofs]
         return np.append(self._nodes, False)[np.minimum(nodes, len(self._nodes))]
-
-
-def with_material(model: Model, body: int, **changed: float) -> Model:
-    """The model with a body of another material.
-
-    Parameters
-    ----------
-    body : its number
-    changed : fields of its material
-    """
-    bodies = list(model.bodies)
-    material: Any = bodies[body].material
-    bodies[body] = replace(bodies[body], material=replace(material, **changed))
-    return replace(model, bodies=tuple(bodies))
 
 
 def _response(system: InterfaceSystem) -> ByNodes:

@@ -52,6 +52,17 @@ class PairChange:
             step=step,
         )
 
+    def mirrored(self, step: float) -> PairChange:
+        """What a parameter changes that does the other way what this one does, both per part of themselves.
+
+        Parameters
+        ----------
+        step : half of what it differs by between both sides, the same part of it
+        """
+        part = -self.step / step
+        changed = {"B": part * self.B, "gap": part * self.gap, "compliance": part * self.compliance}
+        return PairChange(**changed, low=self.high, high=self.low, step=step)
+
     @cached_property
     def any(self) -> bool:
         """Whether anything changes."""

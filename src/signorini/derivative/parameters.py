@@ -9,7 +9,8 @@ from signorini.arrays import Array, extent
 from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.body_side import BodySide, moved_side
 from signorini.derivative.changes import FrictionChange, GapChange, LoadChange
-from signorini.derivative.moduli import ModulusChange, with_material
+from signorini.derivative.moduli import ModulusChange
+from signorini.derivative.modulus_pairs import ModulusPairs, with_material
 from signorini.derivative.pair_change import between_bodies
 from signorini.derivative.recursion import Change
 from signorini.derivative.step_friction import coefficients
@@ -47,13 +48,14 @@ def names_of(prepared: Prepared, kind: str) -> list[str]:
     return [body.name for body in model.bodies if isinstance(body.material, Elastic)]
 
 
-def change_of(prepared: Prepared, kind: str, name: str) -> Change:
+def change_of(prepared: Prepared, kind: str, name: str, seen: ModulusPairs) -> Change:
     """What a parameter changes at once.
 
     Parameters
     ----------
     prepared : the model
     kind, name : of the parameter
+    seen : what moduli change of the pairs of the model
 
     Raises
     ------
@@ -73,7 +75,7 @@ def change_of(prepared: Prepared, kind: str, name: str) -> Change:
         return LoadChange(name=name)
     body = [part.name for part in model.bodies].index(name)
     if kind == "E" and ModulusChange.knows(prepared, body):
-        return ModulusChange(prepared=prepared, body=body)
+        return ModulusChange(prepared=prepared, body=body, seen=seen)
     material = model.bodies[body].material
     given = float(getattr(material, kind))
     step = _STEP if kind == "nu" else _STEP * (abs(given) or 1.0)

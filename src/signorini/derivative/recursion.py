@@ -166,6 +166,22 @@ def backward(
     return Adjoint(stacks=stacks, bounds={system: one.bound for system, one in back.passed.items()})
 
 
+def changed(points: Sequence[TapePoint], adjoint: Adjoint, change: Change) -> float:
+    """What a parameter changes of an output of motions and forces.
+
+    Parameters
+    ----------
+    points : of the history, and trials behind them
+    adjoint : of the output
+    change : what the parameter changes at once
+    """
+    found = change.total(points, adjoint)
+    for system, friction in adjoint.bounds.items():
+        bound = change.bound(system)
+        found += 0.0 if bound is None else friction.along(bound)
+    return found
+
+
 class _Back:
     """The way back through the points of a history; parameters as of `backward`.
 

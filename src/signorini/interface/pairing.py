@@ -317,6 +317,9 @@ def _without_removed(seen: Coupling, kept: Array, partner: IntArray) -> tuple[sp
     parts = []
     for i, force in enumerate(seen.forces):
         there = np.nonzero((partner[:, i] >= 0) & (seen.normal_areas[:, i] != kept[:, i]))[0]
+        if not len(there):
+            parts.append(force)
+            continue
         across = selection(seen.nodes[there], count) - selection(partner[there, i], count)
         taken = sp.diags_array((kept - seen.normal_areas)[there, i]) @ across
         parts.append(sp.csr_array(force + selection(there, len(partner)).T @ taken))
@@ -326,6 +329,8 @@ def _without_removed(seen: Coupling, kept: Array, partner: IntArray) -> tuple[sp
 def _mirrored(coupling: Coupling, partner: IntArray) -> tuple[sp.csr_array, ...]:
     """The weights of the sliding: node against node on planes of symmetry."""
     there = np.nonzero(partner >= 0)[0]
+    if not len(there):
+        return coupling.forces
     count, rows = coupling.forces[0].shape[1], selection(there, len(partner)).T
     pairs = selection(coupling.nodes[there], count) - selection(partner[there], count)
     keep = sp.diags_array(np.where(partner >= 0, 0.0, 1.0))

@@ -13,7 +13,7 @@ from typing import Any
 
 from signorini.deck import Deck
 from signorini.deck.changes import place_of
-from signorini.derivative.moduli import with_material
+from signorini.derivative.modulus_pairs import with_material
 from signorini.derivative.parameters import KINDS
 from signorini.errors import InputError, Where, one_of, spell
 from signorini.model.material import Elastic
