@@ -16,7 +16,9 @@ import subprocess
 import sys
 import tempfile
 import venv
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from subprocess import PIPE, STDOUT
 
 ROOT = Path(__file__).resolve().parent
 BIN = ROOT / ".venv" / ("Scripts" if os.name == "nt" else "bin")
@@ -38,6 +40,28 @@ def run(program: str, *arguments: str, **environment: str) -> None:
     code = subprocess.call([str(BIN / program), *arguments], cwd=ROOT, env={**os.environ, **environment})
     if code:
         sys.exit(code)
+
+
+def side_by_side(*programs: tuple[str, ...]) -> None:
+    """Run programs of .venv two at a time, each on one thread, and show in their order what they print.
+
+    None begins after one has failed; then this program ends with that one's exit code.
+    """
+    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
+
+    def output(program: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+        command = [str(BIN / program), *arguments]
+        return subprocess.run(command, cwd=ROOT, env=environment, stdout=PIPE, stderr=STDOUT, text=True, check=False)
+
+    with ThreadPoolExecutor(2) as pool:
+        runs = [pool.submit(output, *program) for program in programs]
+        for program, done in zip(programs, runs, strict=True):
+            result = done.result()
+            say(" ".join(program))
+            print(result.stdout, end="", flush=True)
+            if result.returncode:
+                pool.shutdown(cancel_futures=True)
+                sys.exit(result.returncode)
 
 
 def say(words: str) -> None:
@@ -63,7 +87,8 @@ def quick() -> None:
         found = Path(folder) / "types.txt"
         with found.open("w") as told, subprocess.Popen([str(BIN / "mypy")], cwd=ROOT, stdout=told) as types:
             pytest("not slow and not suite")
-            run_deck(ROOT / "examples" / "zhu_cylinder.toml", folder)
+            say("examples/zhu_cylinder.toml")
+            run("signorini", "run", "examples/zhu_cylinder.toml", "-o", str(Path(folder) / "cylinder"), "--quiet")
         print(found.read_text(), end="")
         if types.returncode:
             sys.exit(types.returncode)
@@ -72,28 +97,25 @@ def quick() -> None:
 
 def test() -> None:
     """Everything that must hold before a change lands."""
-    check()
+    lint()
+    say("types and examples")
+    with tempfile.TemporaryDirectory() as folder:
+        decks = sorted((ROOT / "examples").glob("*.toml"))
+        picture = str(Path(folder) / "cylinder.png")
+        side_by_side(
+            ("mypy",),
+            *(("signorini", "run", str(deck), "-o", str(Path(folder) / deck.stem), "--quiet") for deck in decks),
+            ("python", "examples/zhu_table1.py"),
+            ("python", "examples/zhu_figures.py", folder),
+            ("python", "examples/zhu_convergence.py"),
+            ("python", "examples/fretting.py", folder),
+            ("python", "examples/readme_picture.py", picture),
+        )
     say("tests and doctests")
     pytest("not suite")
-    with tempfile.TemporaryDirectory() as folder:
-        for deck in sorted((ROOT / "examples").glob("*.toml")):
-            run_deck(deck, folder)
-        say("examples/zhu_table1.py, zhu_figures.py, zhu_convergence.py, fretting.py, readme_picture.py")
-        run("python", "examples/zhu_table1.py")
-        run("python", "examples/zhu_figures.py", folder)
-        run("python", "examples/zhu_convergence.py")
-        run("python", "examples/fretting.py", folder)
-        run("python", "examples/readme_picture.py", str(Path(folder) / "cylinder.png"))
     say("verification suite")
     run("signorini", "verify", "--all")
     say("all checks passed")
-
-
-def check() -> None:
-    """Install the development tools; lint, format and types."""
-    lint()
-    say("types")
-    run("mypy")
 
 
 def lint() -> None:
@@ -106,13 +128,8 @@ def lint() -> None:
 
 def pytest(marks: str) -> None:
     """Run the tests of these marks, two at a time."""
-    run("python", "-m", "pytest", "-n", "2", "--dist", "worksteal", "-m", marks, OMP_NUM_THREADS="1")
-
-
-def run_deck(deck: Path, folder: str) -> None:
-    """Solve an example and write its results below a folder."""
-    say(f"examples/{deck.name}")
-    run("signorini", "run", str(deck), "-o", str(Path(folder) / deck.stem), "--quiet")
+    slowest = "--durations=25"
+    run("python", "-m", "pytest", "-n", "2", "--dist", "worksteal", slowest, "-m", marks, OMP_NUM_THREADS="1")
 
 
 def figures() -> None:
