@@ -9,6 +9,8 @@ import numpy as np
 
 from signorini.arrays import Array
 
+_SINGULAR = 1e-14  # of the largest entry to the power of the size: a determinant that is rounding
+
 
 def jacobians(points: Array, reference: Array) -> Array:
     """``dx/dX`` of cells, (m, q, d, d).
@@ -72,6 +74,33 @@ def gradients_in_space(matrices: Array, reference: Array) -> Array:
     found = np.empty((*matrices.shape[:2], *reference.shape[1:]))
     for i, column in enumerate(cofactors):
         found[..., i] = sum((part / determinant)[..., None] * reference[..., j] for j, part in enumerate(column))
+    return found
+
+
+def solved(matrices: Array, right: Array) -> Array:
+    """Solutions (n, d) of many small systems; shortest least squares of those that are singular.
+
+    Parameters
+    ----------
+    matrices : (n, d, d), d = 2 or 3
+    right : (n, d)
+
+    Examples
+    --------
+    >>> solved(np.array([[[2.0, 1.0], [0.0, 4.0]], [[1.0, 1.0], [1.0, 1.0]]]), np.ones((2, 2))).round(12).tolist()
+    [[0.375, 0.25], [0.5, 0.5]]
+    """
+    rows = np.moveaxis(matrices, (-2, -1), (0, 1))
+    cofactors = [_cofactors(rows, i) for i in range(len(rows))]
+    determinant = np.asarray(sum(a * b for a, b in zip(rows[0], cofactors[0], strict=True)))
+    largest = np.abs(matrices).max(axis=(1, 2), initial=0.0)
+    singular = np.abs(determinant) <= _SINGULAR * largest ** len(rows)
+    divisor = np.where(singular, 1.0, determinant)
+    columns = zip(*cofactors, strict=True)
+    found = np.column_stack(
+        [sum(part * b for part, b in zip(column, right.T, strict=True)) / divisor for column in columns]
+    )
+    found[singular] = np.einsum("nij,nj->ni", np.linalg.pinv(matrices[singular]), right[singular])
     return found
 
 

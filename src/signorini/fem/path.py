@@ -11,6 +11,7 @@ from scipy.spatial import KDTree
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, one_of
+from signorini.fem.jacobian import solved
 from signorini.fem.space import Block, Space, shape_functions
 from signorini.fem.stress import body_stresses
 from signorini.model.model import Model
@@ -21,7 +22,7 @@ _NEWTON = 20
 _SETTLED = 1e-14  # of a cell: a last step
 _OBLIQUE = {"triangle": 2, "tetra": 3, "wedge": 2}
 """How many reference coordinates add up to 1 at most; the others reach 1 each."""
-_BENT = 1.3  # of the distance of the farthest node: how far a bent edge may reach
+_BENT = 1.3  # of the distance of the farthest node, or of a box beside it: how far a bent edge may reach
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -131,9 +132,11 @@ def located(space: Space, model: Model, points: Array, body: int) -> Iterator[tu
 
 
 def _candidates(corners: Array, points: Array) -> tuple[IntArray, IntArray]:
-    """Points and cells whose circles hold them, as pairs; one tree for every size of cells."""
+    """Points and cells whose circles and boxes hold them, as pairs; one tree for every size of cells."""
     centres = corners.mean(axis=1)
     radii = _BENT * np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1)
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    beyond = (_BENT - 1.0) * (high - low).max(axis=1, keepdims=True)
     size = np.floor(np.log2(radii)).astype(int) if len(radii) else np.empty(0, int)
     pairs = [(np.empty(0, int), np.empty(0, int))]
     for one in np.unique(size):
@@ -141,7 +144,9 @@ def _candidates(corners: Array, points: Array) -> tuple[IntArray, IntArray]:
         near = KDTree(centres[cells]).query_ball_point(points, radii[cells].max())
         counts = np.array([len(part) for part in near])
         flat = np.concatenate([np.asarray(part, int) for part in near])
-        pairs.append((np.repeat(np.arange(len(points)), counts), cells[flat]))
+        point, cell = np.repeat(np.arange(len(points)), counts), cells[flat]
+        within = np.abs(points[point] - 0.5 * (low + high)[cell]) <= (0.5 * (high - low) + beyond)[cell]
+        pairs.append((point[within.all(axis=1)], cell[within.all(axis=1)]))
     return np.concatenate([p for p, _ in pairs]), np.concatenate([c for _, c in pairs])
 
 
@@ -151,12 +156,15 @@ def _inverse(block: Block, corners: Array, points: Array) -> tuple[Array, Array]
     oblique = next((axes for family, axes in _OBLIQUE.items() if block.family.startswith(family)), 0)
     middle = np.where(np.arange(d) < oblique, 1.0 / (1.0 + oblique), 0.5)
     at = np.tile(middle, (len(points), 1))
+    moving = np.arange(len(points))
     for _ in range(_NEWTON):
-        values, gradients = shape_functions(block.family, at.T)
-        miss = points - np.einsum("nk,nki->ni", values, corners)
-        J = np.einsum("nki,nkj->nij", corners, gradients)
-        last, at = at, np.clip(at + np.einsum("nij,nj->ni", np.linalg.pinv(J), miss), -2.0, 3.0)
-        if np.abs(at - last).max(initial=0.0) < _SETTLED:
+        here, nodes = at[moving], corners[moving]
+        values, gradients = shape_functions(block.family, here.T)
+        miss = points[moving] - np.einsum("nk,nki->ni", values, nodes)
+        step = solved(nodes.transpose(0, 2, 1) @ gradients, miss)
+        at[moving] = np.clip(here + step, -2.0, 3.0)
+        moving = moving[np.abs(at[moving] - here).max(axis=1) >= _SETTLED]
+        if not len(moving):
             break
     far = at[:, :oblique].sum(axis=1, keepdims=True) - 1.0
     outside = np.hstack([-at, far, at[:, oblique:] - 1.0]).max(axis=1)
