@@ -66,6 +66,43 @@ def test_a_stack_with_gaps_is_the_stack_without(kind, increments):
         np.testing.assert_allclose(lowered, np.repeat([0.0, 0.125, 0.25], [36, 28, 20]), atol=1e-10)
 
 
+@pytest.mark.parametrize("kind", ["plane strain", "axisymmetric", "space"])
+@pytest.mark.parametrize("increments", [None, 2])
+def test_a_stack_that_overlaps_is_the_stack_that_touches(kind, increments):
+    """Nothing holds the upper bodies down, so they rise out of each other before anything presses."""
+    overlapping, touching = (sg.solve(stack(gap, kind, increments=increments)).last for gap in (-0.05, 0.0))
+    same(overlapping, touching, 1e-8)
+    begun = overlapping.instants[0]
+    assert (begun.what, begun.load_factor, begun.work) == ("approach", 0.0, 0.0)
+    raised = overlapping.displacement[:, -1] - touching.displacement[:, -1]
+    np.testing.assert_allclose(np.unique(raised.round(8)), [0.0, 0.05, 0.1])
+
+
+def between_walls(overlap, clearance, load, path):
+    """A block between two walls, into the lower of which it reaches."""
+    return sg.Model(
+        sg.rectangle(nx=6, ny=2),
+        bodies=[sg.Body("block", SOFT)],
+        loads=[sg.Load(side, traction=(0.0, load / 2.0), name=side) for side in ("bottom", "top")],
+        contacts=[
+            sg.Contact("bottom", sg.Plane((0.0, overlap), (0.0, 1.0)), friction=0.3, name="low"),
+            sg.Contact("top", sg.Plane((0.0, 1.0 + overlap + clearance), (0.0, -1.0)), friction=0.3, name="high"),
+        ],
+        steps=[sg.Step(name="press", path=path)],
+    )
+
+
+@pytest.mark.parametrize("path", ["exact", "increments"])
+@pytest.mark.parametrize("load", [-5.0, 5.0])
+def test_a_block_rises_out_of_one_wall_towards_another(path, load):
+    """Only where it fits between both: otherwise they squeeze it."""
+    raised, touching = (sg.solve(between_walls(overlap, 0.01, load, path)).last for overlap in (0.01, 0.0))
+    same(raised, touching, 1e-8)
+    squeezed = sg.solve(between_walls(0.01, -0.02, load, path)).last
+    assert squeezed.instants[0].what != "approach"
+    assert all(contact.pressure.min() > 0.0 for contact in squeezed.contacts)
+
+
 def cylinder(turn, *, above=True, **step):
     """Half a disk on a rigid plane, turned about its centre; at y = 0, or where its lowest node is."""
     mesh = sg.half_disk(radius=8.0, contact_length=4.0, contact_spacing=0.5, refine=2)

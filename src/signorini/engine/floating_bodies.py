@@ -17,7 +17,7 @@ from signorini.errors import SolveFailed
 from signorini.fem.loads import nodal_volumes
 from signorini.fem.rigid import describe_approach
 from signorini.friction.answer import PULLED_AWAY
-from signorini.friction.approach import approach
+from signorini.friction.approach import Approach, approach, relieved
 from signorini.friction.history import Segment
 from signorini.law.bound import ADHESION_SLOPE
 from signorini.law.states import OPEN
@@ -39,9 +39,9 @@ _SEEN = 1e-9  # of the size of the model: a motion that anyone would want to kno
 def approached(part: StepPart) -> FollowedPart | None:
     """What happens before the loads of a part can press: bodies move rigidly until contact can bear the loads.
 
-    Only motions that no contact feels that presses already, and along which the loads work, however small: nothing
-    resists them, and they take no energy. None where there is no such motion; a note without a snapshot where
-    the search for it ended at its budget.
+    Only motions that no contact feels that presses already, and along which the loads work, however small, or out of
+    overlaps: nothing resists them, and they take no energy. None where there is no such motion; a note without a
+    snapshot where the search for it ended at its budget.
 
     Raises
     ------
@@ -55,25 +55,24 @@ def approached(part: StepPart) -> FollowedPart | None:
         return None
     change = change_of_loads(part)
     work, enough = floating.T @ (motions.T @ change), DRIVES * float(np.abs(change).sum())
-    if np.abs(work).max() <= enough:
-        return None
     presses, apart, width = standing(prepared, state)
-    if (state.gap[apart] < -width).any():  # overlaps press first
+    overlaps = bool((state.gap[apart] < -width).any())
+    if np.abs(work).max() <= enough and not overlaps:
         return None
     moved = np.asarray((interface.B @ motions) @ floating)
     rubs = presses & interface.friction.rubs
     basis = unfelt(moved[np.concatenate([presses, *[rubs] * (interface.directions - 1)])])
     basis = basis @ _alike(prepared, floating @ basis)
-    if np.abs(basis.T @ work).max(initial=0.0) <= enough:
+    P, gap = moved[interface.rows(apart)] @ basis, state.gap[apart]
+    out = relieved(P[: len(gap)], gap, width=width) if overlaps else np.zeros(basis.shape[1])
+    if out is None:  # overlaps press first
         return None
-    slope = interface.friction.steepest[apart]
-    found = approach(
-        moved[interface.rows(apart)] @ basis,
-        np.maximum(state.gap[apart], 0.0),
-        np.where(slope >= ADHESION_SLOPE, np.inf, slope * interface.anisotropy[apart].T),
-        basis.T @ work,
-        width=width,
-    )
+    gap = np.maximum(gap + P[: len(gap)] @ out, 0.0)
+    found: Approach | Spent | None = Approach(motion=np.zeros_like(out), loose=np.zeros_like(out), gap=gap)
+    if np.abs(basis.T @ work).max(initial=0.0) > enough:
+        slope = interface.friction.steepest[apart]
+        bound = np.where(slope >= ADHESION_SLOPE, np.inf, slope * interface.anisotropy[apart].T)
+        found = approach(P, gap, bound, basis.T @ work, width=width)
     if isinstance(found, Spent):
         words = f"{part.where} at {100.0 * part.interval.low:.6g}%: {found}; bodies stay where they are"
         return FollowedPart(
@@ -82,11 +81,12 @@ def approached(part: StepPart) -> FollowedPart | None:
     if found is not None and found.escape is not None:
         share = float(work @ basis @ found.escape / np.linalg.norm(basis.T @ work) / np.linalg.norm(found.escape))
         raise _pulled_away(part, floating @ basis @ found.escape, share)
-    if found is None or not found.motion.any():
+    if found is None or not (out + found.motion).any():
         return None
-    relative = np.where(presses, 0.0, (moved @ (basis @ found.motion)).reshape(state.forces.shape))
+    motion = basis @ (out + found.motion)
+    relative = np.where(presses, 0.0, (moved @ motion).reshape(state.forces.shape))
     relative[0, apart] = found.gap - state.gap[apart]
-    return _approach(part, apart, floating @ basis @ found.motion, floating @ basis @ found.loose, relative)
+    return _approach(part, apart, floating @ motion, floating @ basis @ found.loose, relative)
 
 
 def _pulled_away(part: StepPart, motion: Array, share: float) -> SolveFailed:

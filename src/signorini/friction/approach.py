@@ -15,12 +15,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import Spent
 from signorini.condense.operator import InterfaceOperator
 from signorini.friction.problem import ContactProblem
-from signorini.friction.pull_away import unresisted
+from signorini.friction.pull_away import EXCHANGES, unresisted
 from signorini.friction.solve import solve_contact
 from signorini.law.bound import STICKING_FRICTION
 from signorini.law.section import FrictionSection
@@ -32,6 +33,7 @@ MAX_PIECES = 200
 _PAIR_COMPLIANCE = 1e-6  # of the motion of a pair under a force on it: its own, which shares forces among many pairs
 _VELOCITY_TOL = 1e-6  # of the load: a velocity
 _CLOSING_TOL = 1e-9  # of the velocity: a gap that closes
+_NOWHERE = 1e-9  # of what overlaps and motions would have to meet: no motion relieves the overlaps
 _SAME_TIME_TOL = 1e-12  # of the way: gaps that close together
 
 
@@ -97,6 +99,37 @@ def approach(P: Array, gap: Array, friction: Array, load: Array, *, width: float
         now = now - time * closing
         now[now <= width + _SAME_TIME_TOL * time * float(np.abs(closing).max())] = 0.0
     return Spent(most=MAX_PIECES, of="straight pieces of a rigid approach")
+
+
+def relieved(P: Array, gap: Array, *, width: float) -> Array | None:
+    """The least motion (k,) after which nothing overlaps; None: overlaps press, wherever bodies go.
+
+    ``min |y|  with  gap + P y >= 0``, a least distance (Lawson, Hanson 1974, chapter 23).
+
+    Parameters
+    ----------
+    P : (n, k) what gaps change by, of k motions that weigh alike
+    gap : (n,) of which some are negative
+    width : largest gap of pairs that touch
+
+    Examples
+    --------
+    >>> relieved(np.array([[0.0, 1.0], [0.0, -1.0]]), np.array([-2.0, 5.0]), width=1e-12).round(12).tolist()
+    [0.0, 2.0]
+    >>> relieved(np.array([[0.0, 1.0], [0.0, -1.0]]), np.array([-2.0, 1.0]), width=1e-12)  # squeezed
+    """
+    deepest = -float(gap.min())
+    system = np.vstack([P.T, -gap / deepest])
+    target = np.eye(len(system))[-1]
+    try:
+        multipliers, distance = scipy.optimize.nnls(system, target, maxiter=EXCHANGES * len(gap))
+    except RuntimeError:  # it has not ended by then
+        return None
+    if distance < _NOWHERE:
+        return None
+    misfit = system @ multipliers - target
+    motion = -deepest * misfit[:-1] / misfit[-1]
+    return np.asarray(motion) if (gap + P @ motion >= -width).all() else None
 
 
 def _escape(P: Array, friction: Array, load: Array, v: Array) -> Array | Spent | None:
