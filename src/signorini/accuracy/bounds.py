@@ -48,8 +48,9 @@ _FALL_NEAR_CONTACT = 1.25
 """Times the power of nodes with which errors in space fall otherwise: what those of pressures do, since cells
 are refined by how near they are to the contact."""
 
-_FILL = {2: 1.1, 3: 1.4}
-"""Power of its nodes with which the memory of a mesh grows, in the plane and in space: its factor."""
+_FILL, _FILL_ITERATED = {2: 1.1, 3: 1.4}, 1.1
+"""Power of its nodes with which the memory of a mesh grows, in the plane and in space: its factor; and where contact is
+iterated on the bodies as they are: their stiffness, of which cells share a little more on meshes that are finer."""
 
 
 class Bounds:
@@ -113,13 +114,14 @@ class Bounds:
         few = found.pairs < PAIRS[d] and of != "energy"
         return power * (_FASTER if few else min(max(_fall(levels[-2:], of) / power, 1.0), _FASTER))
 
-    def end(self, nodes: int, more: int, levels: int) -> str:
+    def end(self, nodes: int, more: int, levels: int, *, iterated: bool = False) -> str:
         """Why no finer mesh is tried; empty: it is.
 
         Parameters
         ----------
         nodes, more : of the last mesh and of the next one
         levels : meshes so far
+        iterated : whether nothing was factorised on the last one
         """
         request, held = self._request, peak_memory()
         seconds = time.perf_counter() - self._start
@@ -127,7 +129,8 @@ class Bounds:
             return f"the next mesh has {more} nodes, more than {request.nodes}"
         if request.seconds is not None and seconds > request.seconds:
             return f"{seconds:.1f} s have passed, more than {request.seconds:g}"
-        expected = self._held + (held - self._held) * (more / nodes) ** _FILL[self._dimension]
+        fill = _FILL_ITERATED if iterated else _FILL[self._dimension]
+        expected = self._held + (held - self._held) * (more / nodes) ** fill
         room = held + available_memory() if request.memory is None else request.memory
         if expected > room:
             words = f"the next mesh has {more} nodes, with which {expected / 1e9:.3g} GB of memory are expected"

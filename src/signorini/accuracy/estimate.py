@@ -89,7 +89,7 @@ def estimate(history: History, before: Before | None = None) -> Estimate:
     energy = float(np.sqrt(max(lost) / max(norms))) if max(norms) > 0.0 else 0.0
     effect, share = (
         float(weights.sum()),
-        1.0 if before is None else _space_share(float(weights.sum()), before[2].effect),
+        1.0 if before is None else space_share(float(weights.sum()), before[2].effect),
     )
     found = traced + [one.scaled(share) for one in carried]
     size, marked = max((one.scale for one in traced), default=0.0), np.zeros(len(model.mesh.points))
@@ -132,18 +132,23 @@ def _carried(before: Before, step: int) -> list[tuple[Array, Array]]:
     return found
 
 
-def _space_share(effect: float, before: float) -> float:
+def space_share(effect: float, before: float) -> float:
     """Of the square of the difference from the mesh before in space: what this one lacks of it.
 
-    With q the ratio of what they lack it is q of the difference where errors of two meshes have nothing in common, as
-    those of many cells along the end of a contact, ``q / (1 - q)`` where they have all: the mean of both, that of a
-    product.
+    Spaces of refined meshes hold those of coarser ones, so that an error is orthogonal to what the last refinement has
+    changed, as Galerkin's method has it: the square of what the mesh before lacked is that of what this one lacks and
+    that of the difference. With q the ratio of what they lack it is ``q^2 / (1 - q^2)``.
 
     Parameters
     ----------
     effect, before : squares of errors of stresses, by what they count for the pressures
+
+    Examples
+    --------
+    >>> space_share(1.0, 5.0)
+    0.25
     """
-    return min(effect / (before - np.sqrt(effect * before)), 1.0) if effect < before else 1.0
+    return effect / (before - effect) if effect < before else 1.0
 
 
 def _ratio(square: float, scale: float) -> float:

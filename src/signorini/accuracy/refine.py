@@ -16,6 +16,7 @@ from signorini.accuracy.meshes import RefinedMeshes
 from signorini.arrays import IntArray, among
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
+from signorini.iterative.bodies import ITERATIVE
 from signorini.model.accuracy import Accuracy, Asked
 from signorini.model.links import Equation
 from signorini.model.mesh import Mesh
@@ -86,7 +87,8 @@ def _refined(model: Model, request: Accuracy, solve: Callable[..., History]) -> 
             nodes = len(posed.mesh.points)
             weights = found.squares if request.of == "energy" else found.weights
             posed = meshes.next(weights, bounds.growth(found, posed, levels))
-            reason = bounds.end(nodes, len(posed.mesh.points), len(levels))
+            iterated = history.backend == ITERATIVE
+            reason = bounds.end(nodes, len(posed.mesh.points), len(levels), iterated=iterated)
             if reason and len(levels) == 1 and found.of(request.of) <= request.error:
                 reason = f"it is estimated on one mesh alone: {reason}"
         known = replace(history, accuracy=_result(found, tuple(levels), request, reason, meshes.notes))
