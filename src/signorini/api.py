@@ -47,8 +47,8 @@ def solve(
     start : a solution, or the file of its :meth:`Solution.save_state`, from whose end this history goes on as if it
         were one with that before: load factors, slips and all that steps have set stay. The model must say the same of
         mesh, bodies, supports, loads and contacts
-    backend : of the sparse factorisation, "auto" or a name; or "iterative", on the bodies as they are, or "petsc", on
-        several ranks, see :func:`ranks`
+    backend : of the sparse factorisation, "auto" or a name; or "iterative", on the bodies as they are, or on several
+        ranks, see :func:`ranks`, "petsc" as they are and "mumps" factorised
     settings : limits of the methods that solve contact
     raise_on_failure : otherwise a solution whose ``status`` says why is returned, with what was solved before
     wellposed : whether to ask if the solution is the only one: ``solution.wellposedness``

@@ -1,6 +1,7 @@
 """Models that ranks solve, and what they say of them: ``mpiexec -n 2 python -m tests.helpers.on_ranks NAME ...``.
 
-With ``--cut WAY`` nodes or pairs are where no METIS and no even share would have them.
+With ``--backend mumps`` they are factorised, and steps go as they do by themselves; with ``--cut WAY`` nodes or pairs
+are where no METIS and no even share would have them.
 """
 
 import argparse
@@ -97,13 +98,49 @@ MODELS = {
 }
 
 
-def compared(name):
+def exactly(model):
+    """A model whose steps are all followed from event to event."""
+    return replace(model, steps=[replace(step, path="exact", increments=None) for step in model.steps])
+
+
+def section(**law):
+    """Cubes with a friction cone whose section is no circle."""
+    model = cubes(2)
+    return replace(model, contacts=[replace(model.contacts[0], **law)])
+
+
+def rolled_block():
+    """A block under a rigid ball that contact alone holds."""
+    free = {"u": (None, None), "rotation": None, "force": (0.5, -5.0), "moment": 0.0}
+    return sg.Model(
+        sg.rectangle(width=3.0, height=1.0, nx=6, ny=2),
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+        supports=[sg.Support("bottom", u=(0, 0))],
+        obstacles=[sg.Rigid("ball", sg.Circle((1.5, 4.0), 3.0), **free)],
+        contacts=[sg.Contact("top", "ball", friction=0.3)],
+        steps=[sg.Step(increments=1)],
+    )
+
+
+CONDENSED = {
+    "exact path": lambda: exactly(dragged_block()),
+    "exact path in space": lambda: exactly(section(facets=8)),
+    "facets": lambda: section(facets=8),
+    "two coefficients": lambda: section(friction=(0.3, 0.2), friction_axis=(1.0, 0.0, 0.0)),
+    "a rigid body that contact alone holds": rolled_block,
+}
+"""Models that ask for the condensed interface by themselves."""
+
+
+def compared(name, backend="petsc"):
     """How far the answers of all ranks are from those of the factorised bodies."""
-    model = in_increments(MODELS[name]())
-    here, there = sg.solve(model), sg.solve(model, backend="petsc")
+    model = (MODELS | CONDENSED)[name]()
+    model = in_increments(model) if backend == "petsc" and name in MODELS else model
+    here, there = sg.solve(model), sg.solve(model, backend=backend)
     found = {"back ends": [here.backend, there.backend], "pressure": 0.0, "traction": 0.0, "states": 0}
     found["passed"] = all(step.certificate.passed for step in there.steps)
     found["displacement"] = 0.0
+    found["paths"] = [[step.path for step in history.steps] for history in (here, there)]
     for one, other in zip(here.steps, there.steps, strict=True):
         size = np.abs(one.displacement).max()
         found["displacement"] = max(
@@ -153,11 +190,12 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("names", nargs="*", help="models; all of them where none is named")
     parser.add_argument("--cut", choices=WAYS)
+    parser.add_argument("--backend", default="petsc")
     options = parser.parse_args()
     with sg.ranks() as first:
         if first:
             placed(options.cut)
-            print(json.dumps({name: compared(name) for name in options.names or MODELS}))
+            print(json.dumps({name: compared(name, options.backend) for name in options.names or MODELS}))
 
 
 if __name__ == "__main__":

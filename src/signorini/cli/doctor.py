@@ -29,7 +29,7 @@ EXTRAS = {
     "jax": "derivatives as functions of JAX",
     "torch": "derivatives as functions of PyTorch",
     "mcp": "signorini mcp, a server for agents",
-    "petsc": "the back end 'petsc': bodies on the ranks of mpiexec",
+    "petsc": "the back ends 'petsc' and 'mumps': bodies on the ranks of mpiexec",
 }
 """What every extra is for; the packages that it asks for stand in the metadata of this one."""
 
@@ -89,7 +89,9 @@ def _machine() -> Iterator[str]:
     yield f"{physical_cores()} of {os.cpu_count()} cores{threads}; large models share {number_of_threads()} threads"
     yield f"{available_memory() / 1e9:.3g} GB of memory are free"
     starter = shutil.which("mpiexec")
-    yield f"{starter} starts ranks" if starter else "there is no mpiexec: the back end 'petsc' has one rank"
+    yield (
+        f"{starter} starts ranks" if starter else "there is no mpiexec: the back ends 'petsc' and 'mumps' have one rank"
+    )
     yield "loops are compiled" if compiled() else "loops are not compiled: the first solve does that, once"
 
 

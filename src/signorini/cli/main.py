@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from signorini.cli.exit_codes import DONE, FAILED, INTERRUPTED, NO_SOLUTION, WRONG_INPUT
 from signorini.cli.parser import make_parser
 from signorini.cores import threads
-from signorini.distributed.ranks import PETSC, whole_team
+from signorini.distributed.ranks import ON_RANKS, whole_team
 from signorini.errors import InputError, SolveFailed
 
 _COMMANDS = {
@@ -42,7 +42,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     The exit code; wrong options leave by ``SystemExit(2)``, as is usual
     """
     given = sys.argv[1:] if arguments is None else list(arguments)
-    if any(word.startswith("--b") and (after == PETSC or word.endswith(f"={PETSC}")) for word, after in _pairs(given)):
+    if any(
+        word.startswith("--b") and (after in ON_RANKS or word.partition("=")[2] in ON_RANKS)
+        for word, after in _pairs(given)
+    ):
         return _on_ranks(given)
     return _run(given)
 

@@ -114,7 +114,9 @@ def _add_run(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> None:
     )
     words = "make large files about half as large, which takes longer than to write them"
     run.add_argument("--compress", action="store_true", help=words)
-    words = "of the factorisation, 'iterative', or 'petsc', which mpiexec runs on several ranks (default: auto)"
+    words = (
+        "of the factorisation, 'iterative', or 'petsc' and 'mumps', which mpiexec runs on several ranks (default: auto)"
+    )
     run.add_argument("--backend", default="auto", metavar="NAME", help=words)
     _add_threads(run)
 
@@ -138,7 +140,7 @@ def _add_sweep(commands: Any, parents: Sequence[argparse.ArgumentParser]) -> Non
     sweep.add_argument("--processes", type=int, metavar="N", help=words)
     sweep.add_argument("--quiet", action="store_true", help="print nothing but errors")
     sweep.add_argument("--json", action="store_true", help="print the rows as JSON instead of a table")
-    words = "of the factorisation, 'iterative', or 'petsc', which takes all ranks of mpiexec for one row"
+    words = "of the factorisation, 'iterative', or 'petsc' and 'mumps', which take all ranks of mpiexec for one row"
     sweep.add_argument("--backend", default="auto", metavar="NAME", help=words)
     _add_threads(sweep)
 

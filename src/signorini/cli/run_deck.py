@@ -20,7 +20,7 @@ from signorini.cli.progress import progress
 from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.deck.keys import check_keys
-from signorini.distributed.ranks import PETSC
+from signorini.distributed.ranks import ON_RANKS
 from signorini.engine.first_run import FIRST_SOLVE, compiles_first
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed, one_of
@@ -57,7 +57,7 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     -------
     The exit code: 0, 3, or 130 where it was interrupted: what was finished before is written
     """
-    known = ["auto", *BACKENDS, ITERATIVE, PETSC]
+    known = ["auto", *BACKENDS, ITERATIVE, *ON_RANKS]
     if options.backend not in known:
         raise InputError(one_of(options.backend, known, "back end"), where=("--backend",))
     start = _start(options.start)

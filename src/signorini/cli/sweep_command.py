@@ -12,7 +12,7 @@ from typing import Any
 from signorini.checks import whole
 from signorini.cli.exit_codes import DONE, FAILED, INTERRUPTED, NO_SOLUTION, WRONG_INPUT
 from signorini.cli.progress import progress_bar
-from signorini.distributed.ranks import PETSC
+from signorini.distributed.ranks import ON_RANKS
 from signorini.engine.first_run import helped
 from signorini.errors import InputError, SignoriniError
 from signorini.iterative.bodies import ITERATIVE
@@ -37,7 +37,7 @@ _DOTS = 150  # an inch
 
 def sweep(options: argparse.Namespace) -> int:
     """Solve, write, print; 0 if every row is solved and certified, 3 if one is not."""
-    comm = None if options.backend == PETSC else world()
+    comm = None if options.backend in ON_RANKS else world()
     if comm is None or comm.rank == 0:
         return _first(options, comm)
     study = comm.bcast(None)
@@ -102,7 +102,7 @@ def _run(
 
 def _study(options: argparse.Namespace) -> tuple[Study, Path]:
     """What is asked for, and the folder of it."""
-    known = ["auto", *BACKENDS, ITERATIVE, PETSC]
+    known = ["auto", *BACKENDS, ITERATIVE, *ON_RANKS]
     if options.backend not in known:
         raise InputError(f"unknown back end '{options.backend}'. Known: {', '.join(known)}", where=("--backend",))
     values: dict[str, tuple[Value, ...]] = {}
@@ -131,10 +131,12 @@ def _processes(options: argparse.Namespace) -> int | None:
     """How many share the rows; None: that is found on the way."""
     if options.processes is not None:
         count = whole(options.processes, ("--processes",))
-        if options.backend == PETSC and count > 1:
-            raise InputError(f"is {count}; back end '{PETSC}' takes all ranks for one row", where=("--processes",))
+        if options.backend in ON_RANKS and count > 1:
+            raise InputError(
+                f"is {count}; back end '{options.backend}' takes all ranks for one row", where=("--processes",)
+            )
         return count
-    return 1 if options.backend == PETSC else processes_beside(options.threads)
+    return 1 if options.backend in ON_RANKS else processes_beside(options.threads)
 
 
 def _picture(found: Sweep, folder: Path) -> list[str]:

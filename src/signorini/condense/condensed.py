@@ -263,7 +263,7 @@ def condense(
     response: Response | None = None
     with clock.phase("factorisation"):
         by_nodes = interface.directions == 2 or ties is not None or len(bodies.kept)
-        if not by_nodes and B.shape[0] and takes_borders(backend):
+        if not by_nodes and B.shape[0] and takes_borders(backend, K):
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves
                 seen = bodies._replace(B=B)

@@ -13,6 +13,7 @@ from signorini.condense._kernels import block_on, felt_stiffness
 from signorini.condense.ties import Ties, make_ties
 from signorini.interface.active import FreeBodies, active_pairs, with_supple
 from signorini.interface.interface import Interface
+from signorini.linalg.elsewhere import MatrixElsewhere
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -58,6 +59,7 @@ class Kept:
 
     def block(self, K: sp.csr_array) -> sp.csr_array:
         """(m, m) The stiffness between what is kept where all else is held, of one on the free displacements (z, z)."""
+        K = K.rows(self.dofs) if isinstance(K, MatrixElsewhere) else K
         place = np.full(K.shape[0], -1, np.int64)
         place[self.dofs] = np.arange(len(self.dofs))
         data, indices, indptr = block_on(K.indptr, K.indices, K.data, self.dofs, place)

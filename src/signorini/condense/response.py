@@ -18,7 +18,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 import scipy.linalg
@@ -27,6 +27,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.condense.body_blocks import BodyBlocks
 from signorini.interface.active import FreeBodies
+from signorini.linalg.elsewhere import MatrixElsewhere
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
@@ -210,7 +211,7 @@ def keep_pairs(
     return ByPairs(factorisation=factorisation, rows=np.arange(m), B=B, rigid=rigid)
 
 
-def held_by_springs(K: sp.csr_array, rigid: Array, stiffness: float) -> sp.csr_array:
+def held_by_springs(K: Any, rigid: Array, stiffness: float) -> Any:
     """K with a spring on one dof for each rigid motion, dofs that are far apart.
 
     Parameters
@@ -221,7 +222,10 @@ def held_by_springs(K: sp.csr_array, rigid: Array, stiffness: float) -> sp.csr_a
         return K
     basis = scipy.linalg.qr(rigid, mode="economic")[0]
     dofs = scipy.linalg.qr(basis.T, mode="economic", pivoting=True)[2][: rigid.shape[1]]
-    springs, held = np.zeros(K.shape[0]), K.copy()
+    springs = np.zeros(K.shape[0])
     springs[dofs] = K.diagonal().mean() if K.nnz else stiffness
+    if isinstance(K, MatrixElsewhere):
+        return K.stiffened(springs)
+    held = K.copy()
     held.setdiag(K.diagonal() + springs)  # keeps the pattern, which a sum would thin out
     return held

@@ -33,6 +33,8 @@ class RowsOnRanks:
     ----------
     team : the ranks
     number : under which they hold them
+    stiffness : pieces on the ranks
+    transform : (dofs, z) displacements of the free ones
     blocks : of the unknowns, those of the first rank first
     ends : (ranks + 1,) where the unknowns of the ranks begin and end
     centres : (ranks, d) of the nodes of every rank, length
@@ -45,7 +47,8 @@ class RowsOnRanks:
     """
 
     def __init__(self, K: StiffnessOnRanks, space: Space, constraints: Constraints, rigid: sp.csr_array) -> None:
-        self.team, self.number, self._K = K.team, K.team.kept(self), K
+        self.team, self.number, self.stiffness = K.team, K.team.kept(self), K
+        self.transform = constraints.transform
         d = space.components
         known, index = np.unique(constraints.nodes, return_inverse=True)
         owner, points = K.owner_of(known), space.mesh.points
@@ -63,7 +66,7 @@ class RowsOnRanks:
 
     def _rows(self, transform: sp.csr_array, arm: Array, axis: IntArray, rigid: sp.csr_array) -> Iterator[RowsOfBodies]:
         d, place = self.blocks.size, self.blocks.place
-        for rank, dofs in enumerate(self._K.dofs):
+        for rank, dofs in enumerate(self.stiffness.dofs):
             first, last = (int(end) for end in self.ends[rank : rank + 2])
             moved = transform[dofs]
             columns = np.unique(np.concatenate([moved.indices, np.flatnonzero((place >= first) & (place < last))]))

@@ -75,7 +75,7 @@ class CoarseGrids:
             vectors[-1].array[:] = values
         K.setNearNullSpace(PETSc.NullSpace().create(vectors=vectors, comm=team.comm))
         self._gamg = PETSc.KSP().create(team.comm)
-        _set_options(
+        set_options(
             self._gamg,
             "signorini_gamg_",
             {
@@ -204,11 +204,11 @@ class SpringCycle:
         prefix = f"signorini_{next(_numbers)}_"
         # floating bodies leave motions free
         words: dict[str, Any] = {"ksp_type": "preonly", "pc_type": "redundant", "redundant_pc_type": "svd"}
-        _set_options(cycle.getMGSmoother(0), f"{prefix}0_", words)
+        set_options(cycle.getMGSmoother(0), f"{prefix}0_", words)
         for k, most in enumerate(largest, 1):
             bounds = f"{_LEAST_SMOOTHED * most * _ABOVE_FOUND},{most * _ABOVE_FOUND}"
             words = {"ksp_type": "chebyshev", "ksp_max_it": _SMOOTHING, "ksp_chebyshev_eigenvalues": bounds}
-            _set_options(cycle.getMGSmoother(k), f"{prefix}{k}_", {**words, "pc_type": "pbjacobi"})
+            set_options(cycle.getMGSmoother(k), f"{prefix}{k}_", {**words, "pc_type": "pbjacobi"})
         solver.setOptionsPrefix(prefix)
         solver.setFromOptions()
         solver.setUp()
@@ -230,8 +230,13 @@ class SpringCycle:
         return float(np.max(solver.computeEigenvalues().real))
 
 
-def _set_options(solver: Any, prefix: str, words: Mapping[str, Any]) -> None:
-    """Give a solver a prefix and options of it."""
+def set_options(solver: Any, prefix: str, words: Mapping[str, Any]) -> None:
+    """Give a solver a prefix and options of it.
+
+    Parameters
+    ----------
+    solver, prefix, words : of PETSc, without a dash
+    """
     solver.setOptionsPrefix(prefix)
     options = PETSc.Options()
     for name, value in words.items():

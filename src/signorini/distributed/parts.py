@@ -62,7 +62,7 @@ class AskedOfPairs(NamedTuple):
 
 
 class OwnBodies:
-    """Rows of the bodies on their rank, with the coarse grids of all.
+    """Rows of the bodies on their rank.
 
     Parameters
     ----------
@@ -75,8 +75,13 @@ class OwnBodies:
         self.team, self.d, self.rigid = team, rows.d, rows.rigid
         self.K = matrix(team, _padded(team, K, rows), rows.last - rows.first, rows.d)
         self.K.setOption(self.K.Option.SYMMETRIC, True)
-        self.grids = CoarseGrids(team, self.K, rows.near_null)
+        self._near_null = rows.near_null
         self.z, self.forces = self.K.createVecs()
+
+    @cached_property
+    def grids(self) -> CoarseGrids:
+        """Coarse grids, which all ranks make together for the first pairs that are iterated on."""
+        return CoarseGrids(self.team, self.K, self._near_null)
 
     def internal(self, z: Array) -> Array:
         """(own,) Forces K z."""
@@ -113,6 +118,7 @@ class OwnPairs:
         self.bodies, self.rows = bodies, B
         self.B = matrix(bodies.team, B, bodies.K.getLocalSize()[0])
         self.z, self.motion = self.B.createVecs()
+        self.grids = bodies.grids
         self.cycle: SpringCycle | None = None
 
     def felt(self) -> Array:
@@ -187,7 +193,7 @@ class PressedPart:
         cycle = self.own.cycle
         if cycle is None:
             stuck = np.eye(len(self.compliance)) * self.stiffness[:, None, None]
-            cycle = self.own.cycle = SpringCycle(self.own.bodies.grids, self.own.B, stuck)
+            cycle = self.own.cycle = SpringCycle(self.own.grids, self.own.B, stuck)
         cycle.under(_blocks(springs))
         return cycle
 
@@ -211,7 +217,7 @@ def _blocks(springs: PairSprings) -> Array:
 
 
 def hold_bodies(team: Team, rows: RowsOfBodies, stiffness: int, number: int) -> None:
-    """Make the rows of the bodies and their coarse grids, and keep them.
+    """Make the rows of the bodies, and keep them.
 
     Parameters
     ----------

@@ -18,7 +18,13 @@ from typing import Any
 from signorini.errors import InputError
 
 PETSC = "petsc"
-"""The name of this way among the back ends."""
+"""The name of this way among the back ends: contact is iterated on the bodies."""
+
+MUMPS = "mumps"
+"""The name of the other one: bodies are factorised by MUMPS, and contact is solved on the condensed interface."""
+
+ON_RANKS = (PETSC, MUMPS)
+"""Back ends whose bodies are on the ranks of MPI."""
 
 _FAILED = 1  # exit code of a run of which a rank has failed
 _ENDING_SIGNALS = (signal.SIGINT, signal.SIGTERM)

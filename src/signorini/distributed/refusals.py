@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from signorini.distributed.ranks import PETSC, the_team
+from signorini.distributed.ranks import MUMPS, PETSC, the_team
 from signorini.errors import InputError, Where
 from signorini.model.model import Model
 
@@ -24,6 +24,26 @@ def refusal(found: str, expected: str, where: Where = ()) -> InputError:
     """
     words = f"back end '{PETSC}' does not know {found}; expected {expected}, or another back end"
     return InputError(words, where=where)
+
+
+def has_mumps() -> bool:
+    """Whether PETSc was built with MUMPS."""
+    from petsc4py import PETSc as Library
+
+    return bool(Library.Sys.hasExternalPackage(MUMPS))
+
+
+def refuse_without_mumps() -> None:
+    """Refuse a PETSc that cannot factorise.
+
+    Raises
+    ------
+    InputError
+        If it was built without MUMPS.
+    """
+    if not has_mumps():
+        words = "needs a PETSc that was built with MUMPS; expected one, as Debian's and conda-forge's are"
+        raise InputError(f"back end '{MUMPS}' {words} (docs/distributed.md)")
 
 
 def refuse_model(model: Model) -> None:

@@ -14,12 +14,12 @@ from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.kept import Kept
 from signorini.condense.ties import Ties
-from signorini.distributed.ranks import PETSC
+from signorini.distributed.ranks import ON_RANKS
 from signorini.engine.examine import Examined
 from signorini.engine.memory_check import refuse_unassembled
 from signorini.errors import InputError
 from signorini.fem.rigid import hinged
-from signorini.fem.stiffness import stiffness
+from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints
 from signorini.interface.active import FreeBodies
 from signorini.interface.sliding import sliding_unknowns
@@ -33,7 +33,7 @@ _GIVEN_BACK_FROM = 5_000_000
 
 
 def free_bodies(examined: Examined, K: sp.csr_array) -> FreeBodies:
-    """The bodies and their pairs in terms of the free displacements, K (z, z) their stiffness."""
+    """The bodies and their pairs in terms of the free displacements, K (z, z) their stiffness, here or elsewhere."""
     space, constraints, T = examined.space, examined.constraints, examined.constraints.transform
     bodies = FreeBodies(K, sp.csr_array(examined.interface.B @ T), constraints.nodes, space.places)
     if not examined.model.slides:
@@ -112,8 +112,8 @@ def _singular(examined: Examined, error: NotPositiveDefinite) -> InputError:
     )
 
 
-def assembled(examined: Examined, backend: str) -> Any:
-    """The stiffness of bodies and foundations: a matrix, or its pieces on ranks.
+def assembled(examined: Examined, backend: str) -> tuple[Any, str]:
+    """The stiffness of bodies and foundations, a matrix or its pieces on ranks; and the back end, one way of ranks.
 
     Parameters
     ----------
@@ -124,12 +124,26 @@ def assembled(examined: Examined, backend: str) -> Any:
     InputError
         If it does not fit, or ranks do not know something in the model.
     """
-    if backend == PETSC:
+    if backend in ON_RANKS:
         from signorini.engine.solver_on_ranks import stiffness_on_ranks  # needs PETSc
 
-        return stiffness_on_ranks(examined)
+        return stiffness_on_ranks(examined, backend)
     refuse_unassembled(examined.model)
-    return whole_stiffness(examined)
+    return whole_stiffness(examined), backend
+
+
+def reduced_bodies(examined: Examined, K: Any) -> Any:
+    """(z, z) The stiffness of the free displacements: a matrix, or what stands for it where its rows are on ranks.
+
+    Parameters
+    ----------
+    examined, K : the model, and its stiffness as it was assembled
+    """
+    if isinstance(K, sp.csr_array):
+        return reduced_stiffness(K, examined.constraints.transform)
+    from signorini.engine.solver_on_ranks import matrix_on_ranks  # needs PETSc
+
+    return matrix_on_ranks(examined, K)
 
 
 def whole_stiffness(examined: Examined) -> sp.csr_array:

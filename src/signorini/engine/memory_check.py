@@ -19,6 +19,7 @@ from signorini.errors import InputError
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import ITERATIVE
+from signorini.linalg.elsewhere import MatrixElsewhere
 from signorini.linalg.plan import analyse
 from signorini.linalg.registry import takes_borders
 from signorini.linalg.system import checked_system
@@ -86,6 +87,8 @@ def way_through(
         Where what was asked for does not fit, or nothing does: with what it takes, what there is, and ways out.
     """
     K = bodies.K
+    if isinstance(K, MatrixElsewhere):
+        return CONDENSED
     if not K.nnz:  # nothing deforms, so there is nothing to iterate on
         return CONDENSED
     times, more = (_KEPT_TWICE, _TANGENTS * K.nnz) if yields else (1.0, 0.0)

@@ -12,13 +12,13 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
-from signorini.distributed.ranks import PETSC
+from signorini.distributed.ranks import ON_RANKS, PETSC
 from signorini.distributed.refusals import refuse_model
 from signorini.engine.bond_company import refuse_held
 from signorini.engine.bond_solver import with_laws
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_interface, changed_model, scaled
-from signorini.engine.condensation import assembled, condense_bodies, free_bodies, softness, with_ties
+from signorini.engine.condensation import assembled, condense_bodies, free_bodies, reduced_bodies, softness, with_ties
 from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
 from signorini.engine.memory_check import way_through
 from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers, with_factors
@@ -289,7 +289,7 @@ def prepare(
     ----------
     model : the problem
     start : from which the history goes on; its pairs are taken along
-    backend : of the factorisation, "auto", a name, "iterative" or "petsc"
+    backend : of the factorisation, "auto", a name, "iterative", or on ranks "petsc" or "mumps"
     settings, clock : limits of the methods; counts the seconds
     saves : whether bodies that are solved for few increments may be iterated on because that is cheaper
 
@@ -299,11 +299,11 @@ def prepare(
         See :func:`examine`; or a compliance is so large that contact hardly holds a body.
     """
     clock = clock or Clock()
-    if backend == PETSC:
+    if backend in ON_RANKS:
         refuse_model(model)
     with clock.phase("assembly"):
         examined = examine(model, start=start)
-        K = assembled(examined, backend)
+        K, backend = assembled(examined, backend)
         near = candidate_pairs(examined, examined.loading, None if start is None else start.near)
     before = None if start is None else start.standing
     first = increments_before(examined, start, backend) if saves else np.inf
@@ -363,7 +363,7 @@ def condensed_model(
 
             solver = solver_on_ranks(examined, K, candidates, settings)
         elif yields or known is None:
-            reduced = reduced_stiffness(K, examined.constraints.transform)
+            reduced = reduced_bodies(examined, K)
     if reduced is not None and condensed is None:
         with clock.phase("assembly"):
             bodies = free_bodies(examined, reduced)

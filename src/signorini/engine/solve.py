@@ -11,6 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array
 from signorini.clock import Clock
+from signorini.distributed.ranks import MUMPS, PETSC
 from signorini.engine.contact_changes import pressed_gap, relaxed, staged, switched
 from signorini.engine.fatigue import with_fatigue
 from signorini.engine.increments import measured
@@ -78,6 +79,8 @@ def solve(
     """
     # a tape and well-posedness ask for the condensed interface, and in the plane it is always cheaper
     saves = model.dimension == 3 and tape is None and not wellposed
+    if backend == PETSC and (wellposed or tape is not None):
+        backend = MUMPS
     try:
         prepared = prepare(model, start=start, backend=backend, settings=settings, clock=clock, saves=saves)
     except MemoryError as error:

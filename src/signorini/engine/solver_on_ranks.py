@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bodies of a model cut among ranks and solved there; what that does not take is refused before anything is cut."""
+"""Bodies of a model cut among ranks and solved there, iterated on or factorised."""
 
 from __future__ import annotations
 
@@ -8,48 +8,59 @@ import scipy.sparse as sp
 
 from signorini.arrays import BoolArray, among
 from signorini.distributed.bodies import RowsOnRanks, make_bodies_on_ranks
-from signorini.distributed.ranks import the_team
-from signorini.distributed.refusals import refusal
+from signorini.distributed.direct import MatrixOnRanks
+from signorini.distributed.ranks import MUMPS, PETSC, the_team
+from signorini.distributed.refusals import refuse_without_mumps
 from signorini.distributed.stiffness import StiffnessOnRanks
 from signorini.engine.examine import Examined
-from signorini.engine.multipliers import MultiplierSolver, refuse_sections
+from signorini.engine.multipliers import MultiplierSolver
 from signorini.fem.kinematics import straining_groups
 from signorini.settings import SolverSettings
 
 
-def stiffness_on_ranks(examined: Examined) -> StiffnessOnRanks:
-    """Cut the mesh among the ranks and assemble there.
+def way_on_ranks(examined: Examined) -> str:
+    """The back end for a model on ranks: contact is iterated on, where nothing asks for the condensed interface.
+
+    Exact paths, friction cones whose section is no circle, and unknowns without any stiffness, for which multigrid by
+    PETSc has no equation, ask for it.
 
     Parameters
     ----------
     examined : the model
-
-    Raises
-    ------
-    InputError
-        If something in the model is not known here, or PETSc is not installed.
     """
-    team, constraints = the_team(), examined.constraints
-    refuse_sections(examined.interface)
-    _refuse_bare(examined)
-    return StiffnessOnRanks(team, examined.space, examined.model, constraints, examined.interface)
+    interface = examined.interface
+    exact = any(step.path == "exact" for step in examined.model.steps)
+    sections = bool(interface.facets.any() or (interface.anisotropy != 1.0).any())
+    return MUMPS if exact or sections or _bare(examined) else PETSC
 
 
-def _refuse_bare(examined: Examined) -> None:
-    """Refuse unknowns without any stiffness: multigrid by PETSc has no equation for them.
-
-    Raises
-    ------
-    InputError
-        The first rigid body or obstacle that contact alone holds.
-    """
+def _bare(examined: Examined) -> bool:
+    """Whether there are unknowns without any stiffness: of rigid bodies and obstacles that contact alone holds."""
     space, T, count = examined.space, examined.constraints.transform, len(examined.space.mesh.points)
     strained = among([group.cells for group in straining_groups(space, examined.model)], count)
     nodes = np.repeat(np.arange(T.shape[0]) // space.components, np.diff(T.indptr))
     felt = np.zeros(T.shape[1], dtype=np.bool_)
     felt[T.indices[np.append(strained, False)[np.minimum(nodes, count)]]] = True
-    if not felt.all():
-        raise refusal("rigid bodies and obstacles that contact alone holds", "prescribed motions")
+    return not felt.all()
+
+
+def stiffness_on_ranks(examined: Examined, backend: str) -> tuple[StiffnessOnRanks, str]:
+    """Cut the mesh among the ranks and assemble there; and the back end that it is for, see `way_on_ranks`.
+
+    Parameters
+    ----------
+    examined, backend : the model and what is asked for
+
+    Raises
+    ------
+    InputError
+        If it is to be factorised, and PETSc cannot.
+    """
+    way = way_on_ranks(examined) if backend == PETSC else backend
+    if way == MUMPS:
+        refuse_without_mumps()
+    space, model, constraints = examined.space, examined.model, examined.constraints
+    return StiffnessOnRanks(the_team(), space, model, constraints, examined.interface), way
 
 
 def solver_on_ranks(
@@ -64,11 +75,25 @@ def solver_on_ranks(
     candidates : (n,) pairs that may touch
     settings : limits of the rounds
     """
+    rows = _rows(examined, K)
+    B, points = sp.csr_array(examined.interface.B @ examined.constraints.transform), examined.space.mesh.points
+    bodies = make_bodies_on_ranks(rows, points, B, examined.interface, candidates)
+    return MultiplierSolver(bodies=bodies, settings=settings)
+
+
+def matrix_on_ranks(examined: Examined, K: StiffnessOnRanks) -> MatrixOnRanks:
+    """The stiffness of the free displacements on all ranks, for MUMPS to factorise.
+
+    Parameters
+    ----------
+    examined : the model
+    K : its pieces on the ranks, which are cut anew where constraints ask for more
+    """
+    return MatrixOnRanks.of(_rows(examined, K))
+
+
+def _rows(examined: Examined, K: StiffnessOnRanks) -> RowsOnRanks:
     constraints = examined.constraints
     if not K.serves(constraints):
         K.cut(constraints)
-    T = constraints.transform
-    rows = RowsOnRanks(K, examined.space, constraints, sp.csr_array(T.T @ examined.motions))
-    B, points = sp.csr_array(examined.interface.B @ T), examined.space.mesh.points
-    bodies = make_bodies_on_ranks(rows, points, B, examined.interface, candidates)
-    return MultiplierSolver(bodies=bodies, settings=settings)
+    return RowsOnRanks(K, examined.space, constraints, sp.csr_array(constraints.transform.T @ examined.motions))

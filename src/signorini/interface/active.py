@@ -19,7 +19,7 @@ class FreeBodies(NamedTuple):
 
     Attributes
     ----------
-    K : (z, z) stiffness, force per length
+    K : (z, z) stiffness, force per length; of bodies on ranks a `signorini.linalg.elsewhere.MatrixElsewhere`
     B : (d n, z) relative displacements of the pairs
     nodes : (z,) node of each free displacement
     points : (nodes, d) where the nodes are, length

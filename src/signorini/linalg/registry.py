@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from signorini.errors import InputError, one_of
 from signorini.linalg import multifrontal, pardiso, superlu
+from signorini.linalg.elsewhere import MatrixElsewhere
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation
 from signorini.linalg.system import System, checked_system
@@ -30,13 +31,13 @@ BORDERED = frozenset({"multifrontal"})
 factorise a matrix with the interface in it and have to lift it."""
 
 
-def takes_borders(backend: str) -> bool:
-    """Whether the interface may be a border.
+def takes_borders(backend: str, K: Any = None) -> bool:
+    """Whether the interface may be a border; of a `MatrixElsewhere` it may.
 
     >>> takes_borders("auto"), takes_borders("superlu")
     (True, False)
     """
-    return (AUTOMATIC if backend == "auto" else backend) in BORDERED
+    return isinstance(K, MatrixElsewhere) or (AUTOMATIC if backend == "auto" else backend) in BORDERED
 
 
 def factorise(
@@ -52,7 +53,7 @@ def factorise(
 
     Parameters
     ----------
-    K : (n, n) sparse array, symmetric, both triangles stored
+    K : (n, n) sparse array, symmetric, both triangles stored; or a `MatrixElsewhere`, which is factorised there
     interface : (m,) unknowns that are not eliminated, in the order of the condensed system; may be empty
     nodes : (n,) node of every unknown; makes the analysis cheaper, changes no result
     points : (k, d) where the nodes 0, 1, ... are; makes the analysis cheaper, changes no result
@@ -82,6 +83,8 @@ def factorise(
     >>> reduced.expand(np.array([2.0]))
     array([2., 2.])
     """
+    if isinstance(K, MatrixElsewhere):
+        return K.factorised(interface)
     name = AUTOMATIC if backend == "auto" else backend
     if name not in BACKENDS:
         raise InputError(one_of(backend, ["auto", *BACKENDS], "back end"))

@@ -167,12 +167,12 @@ def node_graph(system: System) -> NodeGraph:
     return NodeGraph(start=start, member=member, interior=interior, edges=edges, points=points)
 
 
-def bordered(K: sparse.csr_array, B: sparse.csr_array) -> sparse.csr_array:
+def bordered(K: Any, B: sparse.csr_array) -> Any:
     """``[[K, B^T], [B, 0]]``, (n + m, n + m); with the border as its interface it condenses to ``-B K^-1 B^T``.
 
     Parameters
     ----------
-    K : (n, n)
+    K : (n, n) sparse array, or a `MatrixElsewhere`
     B : (m, n)
 
     Examples
@@ -182,5 +182,7 @@ def bordered(K: sparse.csr_array, B: sparse.csr_array) -> sparse.csr_array:
     >>> bordered(K, B).toarray().tolist()
     [[2.0, 0.0, 1.0], [0.0, 4.0, -1.0], [1.0, -1.0, 0.0]]
     """
+    if not sparse.issparse(K):  # its rows are elsewhere
+        return K.bordered(B)
     none = sparse.csr_array((B.shape[0], B.shape[0]))
     return sparse.csr_array(sparse.block_array([[K, sparse.csr_array(B.T)], [B, none]], format="csr"))

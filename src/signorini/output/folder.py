@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from signorini.clock import Clock
 from signorini.cores import number_of_threads
 from signorini.crew import Crew
-from signorini.distributed.ranks import PETSC
+from signorini.distributed.ranks import ON_RANKS
 from signorini.errors import InputError
 from signorini.model.prints import Prints
 from signorini.outcome import Outcome
@@ -273,7 +273,7 @@ class Publisher:
         """
         if not history.steps and history.escape is None:
             return []
-        if history.backend == PETSC and self._ranks is None:
+        if history.backend in ON_RANKS and self._ranks is None:
             from signorini.output.rank_files import fields_on_ranks
 
             self._ranks = fields_on_ranks(history)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from signorini.distributed.ranks import PETSC
+from signorini.distributed.ranks import ON_RANKS
 from signorini.output.atomic_write import atomic_write
 from signorini.output.fields import Fields, State
 from signorini.output.vtu import FIELDS, write_bodies, write_surfaces
@@ -152,7 +152,7 @@ def write_pvd(history: History, fields: Fields, path: Path, *, compress: bool = 
     """
     _ = history.last
     surfaces, ranks = f"{path.stem}_contact", None
-    if history.backend == PETSC:
+    if history.backend in ON_RANKS:
         from signorini.output.rank_files import fields_on_ranks
 
         ranks = fields_on_ranks(history)
