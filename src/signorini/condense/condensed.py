@@ -21,6 +21,7 @@ from signorini.condense.response import ByNodes, Response, keep_pairs
 from signorini.condense.ties import Ties
 from signorini.interface.active import FreeBodies, active_pairs
 from signorini.interface.interface import Interface
+from signorini.linalg.elsewhere import MatrixElsewhere
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
 from signorini.linalg.registry import factorise, takes_borders
@@ -263,7 +264,7 @@ def condense(
     response: Response | None = None
     with clock.phase("factorisation"):
         by_nodes = interface.directions == 2 or ties is not None or len(bodies.kept)
-        if not by_nodes and B.shape[0] and takes_borders(backend, K):
+        if not by_nodes and B.shape[0] and (isinstance(K, MatrixElsewhere) or takes_borders(backend)):
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves
                 seen = bodies._replace(B=B)

@@ -31,13 +31,13 @@ BORDERED = frozenset({"multifrontal"})
 factorise a matrix with the interface in it and have to lift it."""
 
 
-def takes_borders(backend: str, K: Any = None) -> bool:
-    """Whether the interface may be a border; of a `MatrixElsewhere` it may.
+def takes_borders(backend: str) -> bool:
+    """Whether the interface may be a border.
 
     >>> takes_borders("auto"), takes_borders("superlu")
     (True, False)
     """
-    return isinstance(K, MatrixElsewhere) or (AUTOMATIC if backend == "auto" else backend) in BORDERED
+    return (AUTOMATIC if backend == "auto" else backend) in BORDERED
 
 
 def factorise(
