@@ -137,7 +137,7 @@ def test_friction_that_is_lowered_under_load():
     check(model, derivatives, "interference.joint")
 
 
-@pytest.mark.parametrize("parameter", ["interference.joint", "E.block", "load.pull"])
+@pytest.mark.parametrize("parameter", ["interference.joint", "E.block", "E.pad", "load.pull"])
 def test_a_load_carries_a_body_until_it_touches(parameter):
     """Where it is then, the pair that touches tells, and with it where pairs begin to stick."""
     model = rig(steps=[sg.Step(scale={"pull": 1.0, "heat": 0.5}, path="exact")])

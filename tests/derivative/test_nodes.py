@@ -127,6 +127,40 @@ def test_space_has_them():
     check(sg.solve(model, tape=True), sg.pressure("joint").peak, 1e-4)
 
 
+def test_what_friction_takes_without_friction_is_moved_by_no_node():
+    model = rig(friction=0.0, steps=[sg.Step(scale={"down": 1.0, "pull": 0.0, "heat": 0.0}, increments=1)])
+    model = replace(model, supports=[replace(model.supports[0], u=(0.0, -0.02)), model.supports[1]])
+    assert not sg.solve(model, tape=True).derivative(sg.dissipation()).nodes.any()
+
+
+@pytest.mark.slow
+def test_a_flat_facet_opposite_a_domed_side_has_them():
+    """Both axes in its plane are followed by its normal alike; which of them tangents go by is not moved by nodes."""
+    pad, block = ball_rig(increments=1), sg.box(x=[-0.1, 1.1], y=[-0.2, 1.1], z=[0.0, 1.0])
+    x, y, z = block.points.T
+    domed = replace(block, points=np.column_stack([x, y, z - 0.05 * z * ((x - 0.4) ** 2 + (y - 0.55) ** 2)]))
+    upper = sg.box(x=np.linspace(0, 1, 3), y=np.linspace(0, 1, 3), z=[1.0, 2.0])
+    upper = replace(upper, points=pad.mesh.points[: len(upper.points)])
+    model = replace(
+        pad,
+        mesh=sg.join({"pad": upper, "block": domed}),
+        supports=[replace(pad.supports[0], u=(0.0, 0.0, -0.06)), pad.supports[1]],
+        contacts=[replace(pad.contacts[0], nonmortar="block.top", mortar="pad.bottom")],
+    )
+    solution, motion = sg.solve(model, tape=True), np.random.default_rng(3).standard_normal(model.mesh.points.shape)
+    output, step = sg.force("joint", along=(1.0, 0.0, 0.3)), 1e-6
+    high, low = (
+        sg.solve(replace(model, mesh=replace(model.mesh, points=model.mesh.points + q * motion)))
+        .derivative(output)
+        .value
+        for q in (step, -step)
+    )
+    derivative = solution.derivative(output)
+    wanted = (high - low) / (2.0 * step)
+    assert derivative.shape(motion) == pytest.approx(wanted, rel=1e-4)
+    assert float(np.vdot(derivative.nodes, motion)) == pytest.approx(wanted, rel=1e-4)
+
+
 def test_what_is_held_by_its_place_is_refused():
     model = rig()
     down = sg.Support("pad.top", u=(None, lambda x: -0.02 - 0.001 * x[:, 0]), name="down")

@@ -20,6 +20,7 @@ from signorini.fem.space import Space
 from signorini.fem.stiffness import stiffness, stiffness_change
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.fem.thermal import thermal_forces
+from signorini.interface.first_tangents import without_jumps
 from signorini.interface.interface import Interface, make_interface
 from signorini.interface.sectors import sector_interface
 from signorini.model.model import Model
@@ -32,11 +33,13 @@ class BodySide:
     Attributes
     ----------
     model, space : what is on the mesh, and the mesh
+    middle : the pairs between both sides of the parameter
     body : number of the body whose material the parameter is of; None where the parameter moves nodes
     """
 
     model: Model
     space: Space
+    middle: Interface
     body: int | None = None
 
     def stiffness_change(self, other: BodySide) -> sp.csr_array:
@@ -72,18 +75,20 @@ class BodySide:
     @cached_property
     def interface(self) -> Interface:
         """The pairs."""
-        return pairs_at(self.space, self.model, make_constraints(self.space, self.model))
+        return pairs_at(self.space, self.model, make_constraints(self.space, self.model), self.middle)
 
 
-def pairs_at(space: Space, model: Model, constraints: Constraints) -> Interface:
+def pairs_at(space: Space, model: Model, constraints: Constraints, middle: Interface) -> Interface:
     """The pairs of a model where its nodes are.
 
     Parameters
     ----------
     space, model : of the bodies and their contacts
     constraints : what supports hold: planes of symmetry
+    middle : the pairs where nodes were, whose tangents go on
     """
-    return (sector_interface if model.cyclic_symmetries else make_interface)(space, model, constraints)
+    found = (sector_interface if model.cyclic_symmetries else make_interface)(space, model, constraints)
+    return without_jumps(found, middle)
 
 
 def multiplier(prepared: Prepared, name: str) -> float:
@@ -92,21 +97,24 @@ def multiplier(prepared: Prepared, name: str) -> float:
     return 1.0 if hot else prepared.multiplied.get(name, 1.0)
 
 
-def moved_side(space: Space, model: Model, motion: Array) -> BodySide:
+def moved_side(prepared: Prepared, motion: Array) -> BodySide:
     """Bodies whose nodes a motion (nodes, d), length, takes elsewhere before anything is loaded.
 
     What stands for the size of the model in unknowns of obstacles stays as it is.
 
     Parameters
     ----------
-    space, model : as they are
+    prepared : the model as it is
+    motion : of the nodes
 
     Raises
     ------
     InputError
         Where supports or rigid bodies would hold the moved nodes otherwise.
     """
-    side = BodySide(model=model, space=space.at(space.mesh.points + motion, space.displacement))
+    space, model = prepared.space, prepared.model
+    moved = space.at(space.mesh.points + motion, space.displacement)
+    side = BodySide(model=model, space=moved, middle=prepared.interface)
     if places_matter(model):
         here, there = (make_constraints(where, model) for where in (space, side.space))
         changed = abs(here.transform - there.transform).max() if here.transform.nnz else 0.0

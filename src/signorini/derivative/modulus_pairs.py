@@ -6,10 +6,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from signorini.derivative.body_side import pairs_at
 from signorini.derivative.pair_change import PairChange
 from signorini.engine.prepare import Prepared
 from signorini.fem.supports import make_constraints
-from signorini.interface.interface import make_interface
 from signorini.model.model import Model
 
 _STEP = 1e-4  # of a modulus: normals of tilted sides are smooth in it, differences right to a part in 1e8
@@ -56,8 +56,8 @@ class ModulusPairs:
     def _paired(self, body: int) -> PairChange:
         """What it changes, by pairing the sides at both of its values."""
         space, model = self._prepared.space, self._prepared.model
-        always = make_constraints(space, model)
-        low, high = (make_interface(space, at, always) for at in self.models(body))
+        always, middle = make_constraints(space, model), self._prepared.interface
+        low, high = (pairs_at(space, at, always, middle) for at in self.models(body))
         return PairChange.between(low, high, self.step(body))
 
 

@@ -83,8 +83,11 @@ class SideSums:
             selection(interface.contact, len(least)) if self._lifted else sp.csr_array((len(interface), len(least)))
         )
         every = sp.csr_array(sp.vstack([near + of_pairs @ nearest, nearest]))
-        J, r, w, u = (np.concatenate(part, axis=1) for part in zip(*self._columns, strict=True))
-        gap = np.sum(self._gap, axis=0)
+        # nothing at first: an output that nothing changes, as what friction takes where all sticks, adds no columns
+        pairs, seen_dofs = (np.zeros((count, 0)) for count in (interface.directions * len(interface), len(self._dofs)))
+        columns = [(pairs, pairs, seen_dofs, seen_dofs), *self._columns]
+        J, r, w, u = (np.concatenate(part, axis=1) for part in zip(*columns, strict=True))
+        gap = np.sum([np.zeros(len(interface)), *self._gap], axis=0)
 
         def sums(at: Space) -> Array:
             found = self._pairs(at)
@@ -132,7 +135,7 @@ class SideSums:
         InputError
             Where others make pairs.
         """
-        found = pairs_at(at, self.view.model, self._constraints)
+        found = pairs_at(at, self.view.model, self._constraints, self.view.interface)
         if not np.array_equal(found.node, self.view.interface.node):
             words = "nodes that move a little are paired otherwise; derivatives by nodes do not know that"
             raise InputError(words, where=("nodes",))

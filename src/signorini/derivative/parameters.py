@@ -79,8 +79,9 @@ def change_of(prepared: Prepared, kind: str, name: str, seen: ModulusPairs) -> C
     material = model.bodies[body].material
     given = float(getattr(material, kind))
     step = _STEP if kind == "nu" else _STEP * (abs(given) or 1.0)
+    space, middle = prepared.space, prepared.interface
     low, high = (
-        BodySide(model=with_material(model, body, **{kind: given + part}), space=prepared.space, body=body)
+        BodySide(model=with_material(model, body, **{kind: given + part}), space=space, middle=middle, body=body)
         for part in (-step, step)
     )
     return BodyChange(prepared=prepared, low=low, high=high, step=step, tilts=kind == "E" and between_bodies(model))
@@ -110,7 +111,7 @@ def shape_change(prepared: Prepared, motion: Array) -> BodyChange:
     """What a motion of the nodes (nodes, d), length per unit, changes at once."""
     model = prepared.model
     step = _PART * float(extent(model.mesh.points).max()) / float(np.abs(motion).max())
-    low, high = (moved_side(prepared.space, model, part * motion) for part in (-step, step))
+    low, high = (moved_side(prepared, part * motion) for part in (-step, step))
     return BodyChange(prepared=prepared, low=low, high=high, step=step, tilts=True)
 
 

@@ -12,6 +12,7 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.fem.body_frames import BodyFrames
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
+from signorini.interface.first_tangents import along_first
 from signorini.interface.interface import Interface, make_interface
 from signorini.model.model import Model
 
@@ -77,7 +78,7 @@ def paired_at(
     moved = space.moved(frames.displaced(displacement))
     found = make_interface(moved, model, constraints, contacts)
     if found.directions == 3:
-        found = _along(found, spun(interface, frames, displacement).tangents[own, 0])
+        found = along_first(found, spun(interface, frames, displacement).tangents[own, 0])
     if frames:
         found = replace(found, B=_seen_from_frames(found, moved, frames, displacement))
     if interface.given.any():
@@ -134,21 +135,3 @@ def spun(interface: Interface, frames: BodyFrames, to: Array, of: Array | None =
         turn = turn @ frames.turns(of)[interface.node].swapaxes(1, 2)
     normals = np.einsum("kij,kj->ki", turn, interface.normals)
     return replace(interface, normals=normals, tangents=np.einsum("kij,kaj->kai", turn, interface.tangents))
-
-
-def _along(interface: Interface, first: Array) -> Interface:
-    """The interface with its first tangents along given directions (n, 3), which a choice by axes would let jump."""
-    normals, old, n = interface.normals, interface.tangents, len(interface)
-    one = first - np.einsum("ki,ki->k", first, normals)[:, None] * normals
-    one /= np.linalg.norm(one, axis=1, keepdims=True)
-    axes = np.stack([one, np.cross(normals, one)], axis=1)
-    share = np.einsum("kai,kbi->abk", axes, old)
-    turn = sp.block_array(
-        [
-            [sp.eye_array(n), None, None],
-            [None, sp.diags_array(share[0, 0]), sp.diags_array(share[0, 1])],
-            [None, sp.diags_array(share[1, 0]), sp.diags_array(share[1, 1])],
-        ],
-        format="csr",
-    )
-    return replace(interface, B=sp.csr_array(turn @ interface.B), moments=turn @ interface.moments, tangents=axes)
