@@ -36,6 +36,18 @@ def test_a_walk_over_states_ends_where_a_fresh_start_does(seed, motions):
     assert responses.inverse.updates > 60
 
 
+def test_an_inverse_that_has_lost_digits_still_responds_to_rounding():
+    problem = random_problem(3, 12, 0, friction=0.5)
+    state, free = np.full(12, STICK), Responses(problem).free(problem.b)
+    exact = Responses(problem).respond(state, free)[1]
+    responses = Responses(problem)
+    responses.respond(state, free)
+    responses.inverse.matrix[:] *= 1.0 + 1e-8 * np.random.default_rng(5).standard_normal(responses.inverse.matrix.shape)
+    lost = np.abs(-responses.inverse.matrix @ free[responses.inverse.unknowns] - exact.ravel()).max()
+    assert lost > 1e-10 * np.abs(exact).max()
+    np.testing.assert_allclose(responses.respond(state, free)[1], exact, rtol=0, atol=1e-13 * np.abs(exact).max())
+
+
 def test_a_state_that_holds_nothing_is_singular():
     problem = block_on_floor(4, (-1.0, 0.1, 0.0))
     responses = Responses(problem)

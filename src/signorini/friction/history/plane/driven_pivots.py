@@ -45,7 +45,7 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
             target = law.conditions(state, h0, r0)
             found = Rates(state=state, h=h0, r=r0)
             if last < 0 and target.min() >= -RATE * found.size:  # and so are all on the straight way there
-                return responses.refined(found, load)
+                return found
             extra = extra if len(extra) else responses.imposed(imposed_h, imposed_r)
             h1, r1 = responses.respond(state, extra)
         except SingularState:
@@ -63,7 +63,7 @@ def drive(responses: Responses, law: RateLaw, load: Array, before: Rates, acting
         which, pair = divmod(int(np.argmin(steps)), n)
         step = float(steps[which, pair])
         if way < 0 and step >= theta:
-            return responses.refined(found, load) if target.min() >= -RATE_TOL * found.size else None
+            return found if target.min() >= -RATE_TOL * found.size else None
         if not np.isfinite(step):
             return None
         theta, last, state = theta + way * step, pair, state.copy()

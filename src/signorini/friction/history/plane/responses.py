@@ -17,6 +17,12 @@ from signorini.friction.history.plane.state_inverse import StateInverse
 from signorini.friction.history.rates import Rates
 from signorini.friction.problem import ContactProblem
 
+DRIFT = 1e-12
+"""What equations may lack, relative to what they see of a load, before they are solved once more.
+
+Changes of an inverse add up; rounding leaves forty times less on a path of 1100 states of a thousand pairs.
+"""
+
 MISFIT_ROUNDING = 2e-15
 """Error of a response, relative to its largest entry, that is not refined."""
 
@@ -78,6 +84,9 @@ class Responses:
         self._move_to(state)
         n, unknowns = self.problem.pairs, self.inverse.unknowns
         x, seen = self.inverse.solve(free)
+        if np.abs(seen[unknowns]).max(initial=0.0) > DRIFT * np.abs(free).max(initial=0.0):
+            more, seen = self.inverse.solve(seen)
+            x += more
         full = np.zeros(len(free))
         full[unknowns] = x
         r = full[: 2 * n].reshape(2, n)
@@ -94,14 +103,9 @@ class Responses:
             self._state = state.copy()
 
     def rates(self, state: IntArray, load: Array) -> Rates:
-        """The rates of a state, (n,), under a load rate, (2n,), refined; raises SingularState."""
+        """The rates of a state, (n,), under a load rate, (2n,); raises SingularState."""
         h, r = self.respond(state, self.free(load))
-        return self.refined(Rates(state=state, h=h, r=r), load)
-
-    def refined(self, rates: Rates, load: Array) -> Rates:
-        """Rates under a load rate, (2n,), to the last digits: a steep part of a bound sees those in its events."""
-        h, r = self.balanced(rates.state, load, rates.h, rates.r)
-        return Rates(state=rates.state, h=h, r=r)
+        return Rates(state=state, h=h, r=r)
 
     def balanced(self, state: IntArray, b: Array, h: Array, r: Array) -> tuple[Array, Array]:
         """A response to b with one step of refinement, where equilibrium lacks more than rounding.
