@@ -313,6 +313,14 @@ def test_what_is_printed(deck, tmp_path, capsys):
     assert not (tmp_path / "sweep.png").exists()  # there is nothing to draw over
 
 
+def test_the_folder_of_a_sweep_is_not_taken_for_that_of_a_run(deck, tmp_path, capsys):
+    assert main(["sweep", str(deck), "--set", "friction.floor=0.4,0.6", "-o", str(tmp_path), "--quiet"]) == 0
+    said = f"the folder '{tmp_path}' is that of a sweep, whose rows are in 'sweep.csv', drawn in 'sweep.png'; expected"
+    for command in ("plot", "report"):
+        assert main([command, str(tmp_path)]) == 2
+        assert said in capsys.readouterr().err
+
+
 def test_units_are_those_of_the_deck(deck, tmp_path):
     deck.write_text('units = "mm, N, MPa"\n' + BLOCK)
     assert swept(deck, "--set", "friction.floor=0.4", "-o", tmp_path) == 0

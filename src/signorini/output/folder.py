@@ -59,6 +59,9 @@ SUMMARY = "summary.json"
 ARCHIVE = "solution.h5"
 """The file of a result folder that holds the whole history."""
 
+SWEEP, SWEEP_TABLE = "sweep.json", "sweep.csv"
+"""The files of a folder in which a parameter study keeps its rows."""
+
 SURFACES = "contact.vtu"
 """The file of a result folder that holds the contact surfaces."""
 
@@ -136,6 +139,12 @@ def read_folder(path: Path) -> History:
     """
     if not path.is_dir():
         raise InputError(f"there is no folder '{path}'; expected one that 'signorini run' has written")
+    if (path / SWEEP).is_file():
+        pictures = "".join(f", drawn in '{file.name}'" for file in path.glob("sweep.png"))
+        raise InputError(
+            f"the folder '{path}' is that of a sweep, whose rows are in '{SWEEP_TABLE}'{pictures}; expected that of a "
+            "run, such as 'signorini sweep --results' writes for each row"
+        )
     for name in (SUMMARY, ARCHIVE):
         if not (path / name).is_file():
             status = _said(path, "status")

@@ -18,14 +18,14 @@ from signorini.deck import Deck
 from signorini.errors import InputError
 from signorini.output.atomic_write import atomic_write
 from signorini.output.dataclasses_json import AnyArray, to_plain
+from signorini.output.folder import SWEEP, SWEEP_TABLE
 from signorini.output.result_table import Column, ResultTable
 from signorini.study.problem import Study
 from signorini.study.row import BROKEN, StudyRow, unit_of
 from signorini.study.row_solver import result_folder
 from signorini.study.values import Value
 
-RECORD, TABLE = "sweep.json", "sweep.csv"
-"""Files of the folder."""
+RECORD, TABLE = SWEEP, SWEEP_TABLE
 
 _DIGEST_SIZE = 16  # bytes
 _MAX_TABLE_SHARE = 0.1  # of the time: more than that rows do not wait for their table
