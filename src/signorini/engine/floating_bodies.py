@@ -36,12 +36,17 @@ _FEELS = 1e-9  # of the largest motion of pairs: one that they feel
 _SEEN = 1e-9  # of the size of the model: a motion that anyone would want to know of
 
 
-def approached(part: StepPart) -> FollowedPart | None:
+def approached(part: StepPart, *, relieving: bool = False) -> FollowedPart | None:
     """What happens before the loads of a part can press: bodies move rigidly until contact can bear the loads.
 
     Only motions that no contact feels that presses already, and along which the loads work, however small, or out of
     overlaps: nothing resists them, and they take no energy. None where there is no such motion; a note without a
     snapshot where the search for it ended at its budget.
+
+    Parameters
+    ----------
+    part : of a step
+    relieving : whether bodies rise out of overlaps, too, which increments press from where they are
 
     Raises
     ------
@@ -57,7 +62,7 @@ def approached(part: StepPart) -> FollowedPart | None:
     work, enough = floating.T @ (motions.T @ change), DRIVES * float(np.abs(change).sum())
     presses, apart, width = standing(prepared, state)
     overlaps = bool((state.gap[apart] < -width).any())
-    if np.abs(work).max() <= enough and not overlaps:
+    if not (relieving if overlaps else np.abs(work).max() > enough):
         return None
     moved = np.asarray((interface.B @ motions) @ floating)
     rubs = presses & interface.friction.rubs

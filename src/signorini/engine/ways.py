@@ -48,7 +48,8 @@ def follow_part(stage: Stage, part: StepPart) -> FollowedPart:
     """
     if part.prepared.interface.cohesion is not None:
         return _bonded(stage, part)
-    first = approached(part)
+    in_increments = stage.step.increments is not None or stage.step.path == "increments"
+    first = approached(part, relieving=not in_increments)
     if first is None:
         return joined([_on_interface_or_bodies(stage, part)])
     try:
