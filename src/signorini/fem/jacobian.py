@@ -68,9 +68,7 @@ def gradients_in_space(matrices: Array, reference: Array) -> Array:
     >>> gradients_in_space(np.array([[[[2.0, 1.0], [0.0, 4.0]]]]), np.array([[[1.0, 0.0], [0.0, 1.0]]])).tolist()
     [[[[0.5, -0.125], [0.0, 0.25]]]]
     """
-    rows = np.moveaxis(matrices, (-2, -1), (0, 1))
-    cofactors = [_cofactors(rows, i) for i in range(len(rows))]
-    determinant = sum(a * b for a, b in zip(rows[0], cofactors[0], strict=True))
+    cofactors, determinant = _adjugates(matrices)
     found = np.empty((*matrices.shape[:2], *reference.shape[1:]))
     for i, column in enumerate(cofactors):
         found[..., i] = sum((part / determinant)[..., None] * reference[..., j] for j, part in enumerate(column))
@@ -90,11 +88,9 @@ def solved(matrices: Array, right: Array) -> Array:
     >>> solved(np.array([[[2.0, 1.0], [0.0, 4.0]], [[1.0, 1.0], [1.0, 1.0]]]), np.ones((2, 2))).round(12).tolist()
     [[0.375, 0.25], [0.5, 0.5]]
     """
-    rows = np.moveaxis(matrices, (-2, -1), (0, 1))
-    cofactors = [_cofactors(rows, i) for i in range(len(rows))]
-    determinant = np.asarray(sum(a * b for a, b in zip(rows[0], cofactors[0], strict=True)))
+    cofactors, determinant = _adjugates(matrices)
     largest = np.abs(matrices).max(axis=(1, 2), initial=0.0)
-    singular = np.abs(determinant) <= _SINGULAR * largest ** len(rows)
+    singular = np.abs(determinant) <= _SINGULAR * largest ** matrices.shape[-1]
     divisor = np.where(singular, 1.0, determinant)
     columns = zip(*cofactors, strict=True)
     found = np.column_stack(
@@ -102,6 +98,13 @@ def solved(matrices: Array, right: Array) -> Array:
     )
     found[singular] = np.einsum("nij,nj->ni", np.linalg.pinv(matrices[singular]), right[singular])
     return found
+
+
+def _adjugates(matrices: Array) -> tuple[list[Sequence[Array]], Array]:
+    """Cofactors of matrices, row by row, and their determinants."""
+    rows = np.moveaxis(matrices, (-2, -1), (0, 1))
+    cofactors = [_cofactors(rows, i) for i in range(len(rows))]
+    return cofactors, np.asarray(sum(a * b for a, b in zip(rows[0], cofactors[0], strict=True)))
 
 
 def _cofactors(rows: Array, i: int) -> Sequence[Array]:

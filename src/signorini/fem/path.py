@@ -145,8 +145,9 @@ def _candidates(corners: Array, points: Array) -> tuple[IntArray, IntArray]:
         counts = np.array([len(part) for part in near])
         flat = np.concatenate([np.asarray(part, int) for part in near])
         point, cell = np.repeat(np.arange(len(points)), counts), cells[flat]
-        within = np.abs(points[point] - 0.5 * (low + high)[cell]) <= (0.5 * (high - low) + beyond)[cell]
-        pairs.append((point[within.all(axis=1)], cell[within.all(axis=1)]))
+        apart = np.abs(points[point] - 0.5 * (low + high)[cell])
+        within = (apart <= (0.5 * (high - low) + beyond)[cell]).all(axis=1)
+        pairs.append((point[within], cell[within]))
     return np.concatenate([p for p, _ in pairs]), np.concatenate([c for _, c in pairs])
 
 
