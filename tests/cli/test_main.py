@@ -77,8 +77,10 @@ def test_without_a_folder_results_go_to_out(tmp_path: Path, monkeypatch: pytest.
 
 
 def test_unknown_back_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", CYLINDER, "-o", str(tmp_path), "--backend", "superlou"]) == 2
-    assert "--backend: unknown back end 'superlou'; did you mean 'superlu'?" in capsys.readouterr().err
+    for command in (["run"], ["sweep", "--set", "friction.foundation=0.1"]):
+        assert main([*command, CYLINDER, "-o", str(tmp_path), "--backend", "superlou"]) == 2
+        words = "--backend: unknown back end 'superlou'; did you mean 'superlu'? Known: auto, iterative, "
+        assert words in capsys.readouterr().err
 
 
 def test_check_says_what_would_be_solved(capsys: pytest.CaptureFixture[str]) -> None:

@@ -177,14 +177,22 @@ def test_what_ranks_do_not_know_is_refused_by_name(words, monkeypatch):
         sg.solve(REFUSED[words](), backend="petsc")
 
 
+def test_a_back_end_that_there_is_not_is_told_beside_those_of_ranks():
+    with pytest.raises(
+        sg.InputError, match=r"^unknown back end 'petcs'; did you mean 'petsc'\? Known: .*mumps, .*petsc"
+    ):
+        sg.solve(cubes(1), backend="petcs")
+
+
 def test_a_machine_without_petsc_is_told(monkeypatch, capsys):
     """In one line, before a model is looked at, and with the page that says how to install it."""
     monkeypatch.setitem(sys.modules, "petsc4py", None)
     monkeypatch.setattr(ranks, "the_team", ranks.the_team.__wrapped__)
-    words = r"^back end 'petsc' needs petsc4py and mpi4py \(.*petsc4py.*\); docs/distributed\.md says how they are"
+    words = r"^back ends 'petsc' and 'mumps' need petsc4py and mpi4py \(.*petsc4py.*\); docs/distributed\.md says"
     with pytest.raises(sg.InputError, match=words), sg.ranks():
         pytest.fail("there are no ranks")
-    assert main(["run", "nowhere.toml", "--backend", "petsc"]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("signorini: back end 'petsc' needs petsc4py and mpi4py")
-    assert said.count("\n") == 1
+    for backend in ranks.ON_RANKS:
+        assert main(["run", "nowhere.toml", "--backend", backend]) == 2
+        said = capsys.readouterr().err
+        assert said.startswith("signorini: back ends 'petsc' and 'mumps' need petsc4py and mpi4py")
+        assert said.count("\n") == 1

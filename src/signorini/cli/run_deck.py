@@ -20,12 +20,10 @@ from signorini.cli.progress import progress
 from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.deck.keys import check_keys
-from signorini.distributed.ranks import ON_RANKS
+from signorini.engine.condensation import refuse_unknown
 from signorini.engine.first_run import FIRST_SOLVE, compiles_first
 from signorini.engine.solve import solve
-from signorini.errors import InputError, SolveFailed, one_of
-from signorini.iterative.bodies import ITERATIVE
-from signorini.linalg.registry import BACKENDS
+from signorini.errors import InputError, SolveFailed
 from signorini.linalg.threads import one_thread
 from signorini.model.accuracy import Accuracy, Asked
 from signorini.outcome import Outcome
@@ -57,9 +55,7 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     -------
     The exit code: 0, 3, or 130 where it was interrupted: what was finished before is written
     """
-    known = ["auto", *BACKENDS, ITERATIVE, *ON_RANKS]
-    if options.backend not in known:
-        raise InputError(one_of(options.backend, known, "back end"), where=("--backend",))
+    refuse_unknown(options.backend, ("--backend",))
     start = _start(options.start)
     path = Path(options.folder) if options.folder else Path("out", deck.path.stem)
     note = FIRST_SOLVE if compiles_first(deck.model) else ""

@@ -13,10 +13,9 @@ from signorini.checks import whole
 from signorini.cli.exit_codes import DONE, FAILED, INTERRUPTED, NO_SOLUTION, WRONG_INPUT
 from signorini.cli.progress import progress_bar
 from signorini.distributed.ranks import ON_RANKS
+from signorini.engine.condensation import refuse_unknown
 from signorini.engine.first_run import helped
 from signorini.errors import InputError, SignoriniError
-from signorini.iterative.bodies import ITERATIVE
-from signorini.linalg.registry import BACKENDS
 from signorini.output.atomic_write import atomic_write
 from signorini.output.table import align
 from signorini.study.lanes import RankLanes, serve
@@ -102,9 +101,7 @@ def _run(
 
 def _study(options: argparse.Namespace) -> tuple[Study, Path]:
     """What is asked for, and the folder of it."""
-    known = ["auto", *BACKENDS, ITERATIVE, *ON_RANKS]
-    if options.backend not in known:
-        raise InputError(f"unknown back end '{options.backend}'. Known: {', '.join(known)}", where=("--backend",))
+    refuse_unknown(options.backend, ("--backend",))
     values: dict[str, tuple[Value, ...]] = {}
     for words in options.set:
         key, own = asked_values(words)

@@ -208,7 +208,8 @@ def the_team() -> Team:
         from mpi4py import MPI
     except ImportError as error:
         raise InputError(
-            f"back end '{PETSC}' needs petsc4py and mpi4py ({error}); docs/distributed.md says how they are installed"
+            f"back ends '{PETSC}' and '{MUMPS}' need petsc4py and mpi4py ({error}); docs/distributed.md says how they "
+            "are installed"
         ) from error
     return Team(MPI.COMM_WORLD)
 

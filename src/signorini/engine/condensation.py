@@ -17,7 +17,7 @@ from signorini.condense.ties import Ties
 from signorini.distributed.ranks import ON_RANKS
 from signorini.engine.examine import Examined
 from signorini.engine.memory_check import refuse_unassembled
-from signorini.errors import InputError
+from signorini.errors import InputError, Where, one_of
 from signorini.fem.rigid import hinged
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.fem.supports import Constraints
@@ -26,10 +26,34 @@ from signorini.interface.sliding import sliding_unknowns
 from signorini.iterative.bodies import ITERATIVE
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import NotPositiveDefinite
+from signorini.linalg.registry import BACKENDS
 from signorini.memory import give_memory_back
 
 _GIVEN_BACK_FROM = 5_000_000
 """Entries of K from which the milliseconds that it takes to give memory back are worth it."""
+
+
+def refuse_unknown(backend: str, where: Where = ()) -> None:
+    """Refuse a back end that there is not.
+
+    Parameters
+    ----------
+    backend, where : its name as it was asked for, and where
+
+    Raises
+    ------
+    InputError
+        With the nearest name, and all of them.
+
+    Examples
+    --------
+    >>> refuse_unknown("petcs")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    signorini.errors.InputError: unknown back end 'petcs'; did you mean 'petsc'? Known: auto, iterative, ...
+    """
+    known = ("auto", *BACKENDS, ITERATIVE, *ON_RANKS)
+    if backend not in known:
+        raise InputError(one_of(backend, known, "back end"), where=where)
 
 
 def free_bodies(examined: Examined, K: sp.csr_array) -> FreeBodies:
@@ -122,12 +146,13 @@ def assembled(examined: Examined, backend: str) -> tuple[Any, str]:
     Raises
     ------
     InputError
-        If it does not fit, or ranks do not know something in the model.
+        If it does not fit, there is no such back end, or ranks do not know something in the model.
     """
     if backend in ON_RANKS:
         from signorini.engine.solver_on_ranks import stiffness_on_ranks  # needs PETSc
 
         return stiffness_on_ranks(examined, backend)
+    refuse_unknown(backend)
     refuse_unassembled(examined.model)
     return whole_stiffness(examined), backend
 
