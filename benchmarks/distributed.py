@@ -207,9 +207,11 @@ def main() -> None:
     command.publish(options, "distributed", page.table(HEAD, rows), PAGE)
 
 
-def on_ranks(ranks: int, size: tuple[int, int], *further: str) -> dict[str, Any]:
-    """What ranks print that measure cubes of so many cells."""
-    words = ["mpiexec", "-n", str(ranks), sys.executable, "-m", "benchmarks.distributed", *further, "--one"]
+def on_ranks(
+    ranks: int, size: tuple[int, int], *further: str, module: str = "benchmarks.distributed"
+) -> dict[str, Any]:
+    """What ranks print that measure cubes of so many cells, by a module."""
+    words = ["mpiexec", "-n", str(ranks), sys.executable, "-m", module, *further, "--one"]
     environment = {**os.environ, **page.ONE_THREAD, **ROOT_AND_FEW_CORES}
     done = subprocess.run([*words, *map(str, size)], check=True, stdout=subprocess.PIPE, text=True, env=environment)
     found: dict[str, Any] = json.loads(done.stdout)

@@ -111,6 +111,22 @@ def test_the_command_line_writes_the_same_results(tmp_path, capsys):
         assert done.stderr.count(said) == 1
 
 
+@with_ranks
+@pytest.mark.slow
+def test_messages_of_an_iteration_are_counted():
+    """On two ranks each has one beside it; what the pairs ask of a sum, conjugate gradients take three."""
+    done = on_ranks(2, "-m", "benchmarks.ranks_on_paper", "--one", "4", "3")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    exchanges = found["halo"]  # on two levels: product, smoothing before and after, residual, down and up
+    assert len(found["levels"]) == 2
+    assert 5 <= exchanges <= 8
+    assert found["messages"] >= exchanges
+    assert 3 <= found["sums"] <= 4.5
+    assert found["bytes"] >= exchanges * 8 * 3  # a node at least
+    assert found["held"] > 12 * 27 * found["unknowns"] / 2
+
+
 DYING = """
 import signorini as sg
 from signorini.cli import main
