@@ -192,8 +192,8 @@ def assumptions(beside: int, deep: float) -> str:
 - {LATENCY * 1e6:g} microseconds a message, and of every rank {NETWORK / 1e9:.2f} GB/s of the network and
   {MEMORY / 1e9:.1f} GB/s of memory: nodes of 48 cores with 25 and 200 GB/s. Matrices are read from memory,
   {BYTES_A_FLOP:g} bytes an operation; nothing overlaps.
-- A rank exchanges with {beside} others, the most in a cut into {AT_ONCE}, and of their nodes it sees {deep:.1f} m^(2/3) where
-  it has m; on every level as many exchanges as were counted, and as many bytes a node that is seen.
+- A rank exchanges with {beside} others, the most in a cut into {AT_ONCE}, and of their nodes it sees {deep:.1f} m^(2/3)
+  where it has m; on every level as many exchanges as were counted, and as many bytes a node that is seen.
 - A sum of all ranks takes twice the binary logarithm of their number in messages. Of the coarsest level one
   rank sends to all others, one by one, and each solves it by dense factors.
 - Conjugate gradients grow by the power of the unknowns that they grow by between the first and the last mesh
