@@ -112,7 +112,7 @@ def test_stresses_of_both_bodies_press_alike():
     mesh = sg.solve(model, accuracy=sg.Accuracy(0.02, nodes=12_000)).model
     solution = sg.solve(mesh)
     deformed = DeformedBodies.of(make_space(mesh.mesh, kind=mesh.kind), mesh, solution.last.displacement)
-    found = trace_errors(deformed, solution.last.contacts, StressRecovery(deformed.space, mesh).error(deformed))
+    found = trace_errors(deformed, solution.last.contacts, StressRecovery(deformed.space, mesh).error(deformed), {})
     assert np.sqrt(found.pressure / found.scale) < 0.02
     for name in ("upper.arc", "lower.arc"):
         own = boundary(deformed.space, name, ("contact",)).corner_nodes
@@ -137,5 +137,5 @@ def test_areas_opposite_grow_across_a_gap():
     )
     solution = sg.solve(model)
     deformed = DeformedBodies.of(make_space(model.mesh, kind=model.kind), model, solution.last.displacement)
-    found = trace_errors(deformed, solution.last.contacts, StressRecovery(deformed.space, model).error(deformed))
+    found = trace_errors(deformed, solution.last.contacts, StressRecovery(deformed.space, model).error(deformed), {})
     assert np.sqrt(found.pressure / found.scale) < 0.02

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial import cKDTree
 
+from signorini.accuracy.bends import bend_squares, contact_modulus, driven_motion
 from signorini.accuracy.meshes import is_linear
 from signorini.accuracy.recovery import StressError
 from signorini.accuracy.sides import side_errors
@@ -16,6 +17,7 @@ from signorini.arrays import Array, BoolArray, IntArray, among, padded
 from signorini.fem.boundary import Boundary, boundary
 from signorini.fem.stress import DeformedBodies
 from signorini.model.model import Model
+from signorini.solution.obstacle_result import ObstacleMotion
 from signorini.solution.results import ContactResult
 
 _NEAREST = 16
@@ -57,23 +59,31 @@ class ContactErrors:
         return replace(self, pressure=share * self.pressure, friction=share * self.friction)
 
 
-def trace_errors(deformed: DeformedBodies, contacts: Sequence[ContactResult], stress: StressError) -> ContactErrors:
+def trace_errors(
+    deformed: DeformedBodies,
+    contacts: Sequence[ContactResult],
+    stress: StressError,
+    motions: Mapping[str, ObstacleMotion],
+) -> ContactErrors:
     """Tractions of the law beside those of the recovered stresses on the body's own surface, along the same normals.
 
-    In the plane on the surfaces of both bodies, the larger difference on every facet.
+    In the plane on the surfaces of both bodies, the larger difference on every facet, and no less than what is lost
+    where a side bends.
 
     Parameters
     ----------
     deformed : bodies
-    contacts : at one load
+    contacts : at one load, in the order of the model
     stress : recovered at that load
+    motions : of moving obstacles by name
     """
     found = ContactErrors()
-    for result in contacts:
+    for i, result in enumerate(contacts):
         side = boundary(deformed.space, result.nonmortar, ("contact",))
         own = _Surface.of(side, deformed.model, stress)
         if deformed.model.dimension == 2:
-            found += _along_side(own, result, deformed, stress)
+            opposed = driven_motion(deformed.model, i, result.points, motions)
+            found += _along_side(own, result, deformed, stress, opposed)
         else:
             found += _at_nodes(result, *own.tractions(result, np.searchsorted(own.nodes, result.node)))
     return found
@@ -159,17 +169,26 @@ def _split(vectors: Array, normals: Array) -> tuple[Array, Array]:
     return pressing, traction - pressing[:, None] * normals
 
 
-def _along_side(own: _Surface, result: ContactResult, deformed: DeformedBodies, stress: StressError) -> ContactErrors:
-    """Of one contact in the plane."""
+def _along_side(
+    own: _Surface, result: ContactResult, deformed: DeformedBodies, stress: StressError, opposed: Array
+) -> ContactErrors:
+    """Of one contact in the plane, opposite to what is rigid and has moved by (n, 2), or to another body."""
     model, linear = deformed.model, is_linear(deformed.model)
     recovered = own.tractions(result, np.searchsorted(own.nodes, result.node))
-    errors, nodes = side_errors(own.side, result, recovered, linear=linear), np.zeros(len(model.mesh.points))
+    errors = side_errors(own.side, result, recovered, linear=linear)
+    nodes, sides = np.zeros(len(model.mesh.points)), [own]
     if result.coupling != "obstacle" and not model.mesh.bounds_nothing(result.mortar):
         opposite = _Surface.of(boundary(deformed.space, result.mortar, ("contact",)), model, stress)
         rows, weights = _opposite(deformed, result, opposite)
         recovered = opposite.opposite_tractions(result, own, rows, weights)
         errors = errors.larger(side_errors(own.side, result, recovered, linear=linear))
-        shares = errors.at_nodes(len(model.mesh.points))[result.node]
+        opposed = np.einsum("na,nai->ni", weights, deformed.displacement[opposite.nodes[rows], :2])
+        sides.append(opposite)
+    modulus = contact_modulus(model, [int(model.body_of_cells()[each.side.cells[0]]) for each in sides])
+    moved = deformed.displacement[result.node, :2] - opposed
+    errors = errors.at_least(*bend_squares(own.side.blocks[0].corner_nodes, result, moved, modulus))
+    if len(sides) > 1:
+        shares = errors.at_nodes(len(nodes))[result.node]
         np.add.at(nodes, opposite.nodes[rows], weights * shares[:, None])
     nodes += errors.at_nodes(len(nodes))
     return ContactErrors(

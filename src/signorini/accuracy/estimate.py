@@ -82,7 +82,7 @@ def estimate(history: History, before: Before | None = None) -> Estimate:
         weights += stress.squares * (influence(model.mesh, step.contacts) if model.dimension == IN_SPACE else 1.0)
         lost.append(float(stress.squares.sum()))
         norms.append(stress.norm_square)
-        traced.append(trace_errors(deformed, step.contacts, stress))
+        traced.append(trace_errors(deformed, step.contacts, stress, step.motions))
         if before is not None and not flat:
             carried.append(level_errors(step.contacts, _carried(before, k)))
         pairs = max(pairs, sum(int(contact.closed.sum()) for contact in step.contacts))

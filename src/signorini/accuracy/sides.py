@@ -19,11 +19,13 @@ class SideErrors:
     Attributes
     ----------
     corners : (m, 2) of the facets
+    areas : (m,) of them
     pressure, friction : (m,) of differences
     scale : (m,) of the pressures themselves
     """
 
     corners: IntArray
+    areas: Array
     pressure: Array
     friction: Array
     scale: Array
@@ -36,6 +38,19 @@ class SideErrors:
             for one, more in ((self.pressure, other.pressure), (self.friction, other.friction))
         )
         return replace(self, pressure=pressure, friction=friction)
+
+    def at_least(self, pressure: Array, friction: Array) -> SideErrors:
+        """Errors no less than squares on the mean of every facet.
+
+        Parameters
+        ----------
+        pressure, friction : (m,) squares, force squared per area^2
+        """
+        least = [
+            np.maximum(self.areas * more, own)
+            for more, own in zip((pressure, friction), (self.pressure, self.friction), strict=True)
+        ]
+        return replace(self, pressure=least[0], friction=least[1])
 
     def at_nodes(self, count: int) -> Array:
         """(count,) Squares of both differences, half of a facet at each of its corners."""
@@ -86,6 +101,7 @@ def side_errors(side: Boundary, result: ContactResult, recovered: tuple[Array, A
     scale = chain.areas * (one**2 + other**2 + one * other)[:, 0] / 3.0
     return SideErrors(
         corners=side.blocks[0].corner_nodes,
+        areas=chain.areas,
         pressure=np.where(at_end, ends, nodal[:, 0]),
         friction=nodal[:, 1:].sum(axis=1) + slipping,
         scale=scale,
