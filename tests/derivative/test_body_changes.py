@@ -78,7 +78,7 @@ def test_sums_over_contact_nodes_are_those_over_displacements_of_all_states(kind
 
     def found():
         return [
-            (derivative.nu["pad"], derivative.expansion["block"], derivative.shape(motion))
+            (derivative.nu["pad"], derivative.expansion["block"], *derivative.shape_sides(motion))
             for derivative in map(solution.derivative, every)
         ]
 

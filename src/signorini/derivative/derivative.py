@@ -22,10 +22,11 @@ from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.modulus_pairs import ModulusPairs
 from signorini.derivative.node_gradient import node_gradient
 from signorini.derivative.one_sided import beyond
-from signorini.derivative.parameters import change_of, names_of, shape_change
+from signorini.derivative.parameters import change_of, names_of
 from signorini.derivative.points import TapePoint, tape_points
 from signorini.derivative.recursion import Change, PointChange, changed, forward
 from signorini.derivative.refusals import refuse_tape
+from signorini.derivative.shape_sides import ShapeSides
 from signorini.derivative.validity import PathEdge, edges, validity
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
@@ -34,6 +35,8 @@ from signorini.errors import InputError
 from signorini.model.model import Model
 from signorini.model.outputs import Displacement, Dissipation, Output, Stress, WeightedSum
 from signorini.solution.sensitivities import Validity
+
+_TWO_SIDES = 1e-6  # of a derivative: what those to both sides may differ by and still be the same up to differences
 
 
 class ByName(Mapping[str, Any]):
@@ -253,20 +256,58 @@ class Derivative:
         Raises
         ------
         InputError
+            Where the motion has another shape, moves nothing, or the output has another derivative to each side of it.
+        """
+        sides = self._moved(motion)
+        low, high = self._to_sides(sides)
+        if abs(high - low) > _TWO_SIDES * (abs(high) + abs(low)):
+            view, pair = self._history.view, int(sides.kinked[0])
+            node = view.model.mesh.labels[view.interface.node[pair]]
+            name = view.model.contacts[view.interface.contact[pair]].label
+            words = f"changes node {node} of '{name}' otherwise forwards than backwards, as where it bends a straight "
+            words += f"side or moves flush ends: the derivative has two sides, {low:.6g} and {high:.6g}"
+            raise InputError(f"{words}; shape_sides(motion) gives both", where=("motion",))
+        return self.along(sides.change)
+
+    def shape_sides(self, motion: ArrayLike) -> tuple[float, float]:
+        """The derivatives by a motion of the nodes, (nodes, d), backwards and forwards along it; mostly the same.
+
+        They differ where nodes leave a straight side opposite a smooth one, or move its end away from a flush one.
+
+        Raises
+        ------
+        InputError
             Where the motion has another shape, or moves nothing.
         """
+        return self._to_sides(self._moved(motion))
+
+    def _moved(self, motion: ArrayLike) -> ShapeSides:
+        """A motion of the nodes, checked."""
         model = self._history.prepared.model
         moved = np.asarray(motion, dtype=np.float64)
         if moved.shape != model.mesh.points.shape or not moved.any():
             words = f"has shape {moved.shape}; expected {model.mesh.points.shape}, a motion of some node"
             raise InputError(words, where=("motion",))
-        return self.along(shape_change(self._history.prepared, moved))
+        return ShapeSides(prepared=self._history.prepared, motion=moved)
+
+    def _to_sides(self, sides: ShapeSides) -> tuple[float, float]:
+        """The derivatives backwards and forwards along a motion."""
+        if not len(sides.kinked):
+            own = self.along(sides.change)
+            return own, own
+        low, high = (sum(weight * self.along(part) for weight, part in sides.towards(way)) for way in (-1.0, 1.0))
+        return low, high
 
     @cached_property
     def nodes(self) -> Array:
         """(nodes, d) By the place of every node, per length; `shape` of any motion is the sum of its products with it.
 
         Radii of nodes on the axis stay.
+
+        Raises
+        ------
+        InputError
+            Where motions of single nodes do not add up: those of a straight side opposite another meshed one.
         """
         return node_gradient(self._history.view, self._adjoint, self.output)
 

@@ -21,6 +21,8 @@ from signorini.arrays import Array, BoolArray, IntArray, extent
 from signorini.fem.space import Space
 
 _STEP = 1e-6  # of the size of the model: how far nodes move
+_TURN = 1e-5  # of a motion of as long as facets: by how much they turn where all nodes move at once
+_SAME = 1e-5  # of what numbers change by together: sums that differ by less are the same up to differences
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -58,6 +60,25 @@ class NodeDifferences:
         owner[near.row] = near.col
         own = owner >= 0
         np.add.at(found, nodes[owner[own]], (high - low)[own] / (2.0 * step))
+
+
+def adds_up(space: Space, gradient: Array, motion: Array, numbers: Callable[[Space], Array]) -> bool:
+    """Whether the sum of numbers changes with a motion of all nodes as a gradient says, to both sides of it.
+
+    Parameters
+    ----------
+    space : the mesh
+    gradient : (nodes, d) of the sum of numbers
+    motion : (nodes, d) as long as facets are
+    numbers : their values for nodes at other places
+    """
+    points, before = space.mesh.points, space.displacement
+    low, middle, half, high = (
+        numbers(space.at(points + part * _TURN * motion, before)) for part in (-1.0, 0.0, 0.5, 1.0)
+    )
+    upwards, both = (4.0 * half - 3.0 * middle - high) / _TURN, (high - low) / (2.0 * _TURN)
+    wanted, size = float(np.vdot(gradient, motion)), float(np.abs(both).sum())
+    return max(abs(float(found.sum()) - wanted) for found in (upwards, both)) <= _SAME * size
 
 
 def colours_of(near: sp.csr_array) -> IntArray:

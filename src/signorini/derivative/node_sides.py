@@ -8,6 +8,7 @@ A pair depends on the nodes near it alone, so that many nodes are moved at once,
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -19,8 +20,8 @@ from signorini.derivative.adjoint_terms import Adjoint
 from signorini.derivative.body_side import pairs_at
 from signorini.derivative.explicit import ShapeWeights
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.node_differences import NodeDifferences, within
-from signorini.derivative.pair_change import asks_for_areas, bound_at
+from signorini.derivative.node_differences import NodeDifferences, adds_up, within
+from signorini.derivative.pair_change import asks_for_areas, between_bodies, bound_at
 from signorini.derivative.view import HistoryView
 from signorini.errors import InputError
 from signorini.fem.boundary import Boundary, boundary
@@ -69,7 +70,13 @@ class SideSums:
         return selection(self._dofs, self.view.space.number_of_dofs)
 
     def gradient(self, free: BoolArray) -> Array:
-        """(nodes, d) By the places of nodes, of which some coordinates are free (nodes, d)."""
+        """(nodes, d) By the places of nodes, of which some coordinates are free (nodes, d).
+
+        Raises
+        ------
+        InputError
+            Where what nodes of meshed sides change does not add up.
+        """
         interface, least = self.view.interface, self._least
         facets = [block.facets for side in self._boundaries for block in side.blocks]
         own = selection(interface.node, len(free))
@@ -100,7 +107,34 @@ class SideSums:
                 gaps = found.gap - found.gap[least][found.contact]
             return np.concatenate([of_pairs + gap * gaps, common])
 
-        return NodeDifferences(space=self.view.space, near=every, free=free).gradient(sums)
+        found = NodeDifferences(space=self.view.space, near=every, free=free).gradient(sums)
+        if between_bodies(self.view.model):
+            self._check(found, free, sums)
+        return found
+
+    def _check(self, found: Array, free: BoolArray, sums: Callable[[Space], Array]) -> None:
+        """Motions of all nodes of both sides at once, by parts of the least facets there, are sums of those of each.
+
+        Parameters
+        ----------
+        found, free : (nodes, d) by the place of every node, and which coordinates may change
+        sums : numbers by places
+
+        Raises
+        ------
+        InputError
+            Where that is not so.
+        """
+        size = np.zeros(len(free))
+        for block in (block for side in self._boundaries for block in side.blocks):
+            size[block.facets] = block.lengths.min()
+        motion = np.where(free, np.random.default_rng(0).uniform(-1.0, 1.0, free.shape) * size[:, None], 0.0)
+        if not adds_up(self.view.space, found, motion, sums):
+            words = (
+                "nodes of a straight side opposite another meshed one, or at ends that are flush, change pairs alone"
+            )
+            words += " otherwise than together: derivatives by their places do not add up; "
+            raise InputError(f"{words}shape(motion) knows what a motion of them does", where=("nodes",))
 
     @cached_property
     def _least(self) -> IntArray:

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array, extent
 from signorini.derivative.body_changes import BodyChange
-from signorini.derivative.body_side import BodySide, moved_side
+from signorini.derivative.body_side import BodySide
 from signorini.derivative.changes import FrictionChange, GapChange, LoadChange
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.modulus_pairs import ModulusPairs, with_material
@@ -23,7 +22,6 @@ KINDS = ("friction", "adhesion", "shear_limit", "interference", "load", "support
 """Of parameters that are one number; gaps are given node by node."""
 
 _STEP = 1e-5  # of Poisson's ratio, and of a modulus: K is smooth in both, differences right to a part in 1e9
-_PART = 1e-6  # of the size of the model: how far nodes move at most for differences
 _LAWS = ("friction", "adhesion", "shear_limit")
 
 
@@ -105,14 +103,6 @@ def given_value(prepared: Prepared, kind: str, name: str) -> float:
     contact = next(contact for contact in model.contacts if contact.label == name)
     found = contact.constant_interference if kind == "interference" else getattr(contact, kind)
     return float(found) if isinstance(found, int | float) else np.nan
-
-
-def shape_change(prepared: Prepared, motion: Array) -> BodyChange:
-    """What a motion of the nodes (nodes, d), length per unit, changes at once."""
-    model = prepared.model
-    step = _PART * float(extent(model.mesh.points).max()) / float(np.abs(motion).max())
-    low, high = (moved_side(prepared, part * motion) for part in (-step, step))
-    return BodyChange(prepared=prepared, low=low, high=high, step=step, tilts=True)
 
 
 def _friction(prepared: Prepared, kind: str, name: str) -> FrictionChange:

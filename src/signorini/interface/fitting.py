@@ -240,10 +240,24 @@ def _fitted(points: Array, stencil: sp.csr_array, origin: Array, normal: Array) 
         found += np.einsum("mab,mb->ma", inverse, np.add.reduceat(rows * left[:, None], stencil.indptr[:-1]))
         form = np.zeros((m, d - 1, d - 1))
         form[:, i, j] = form[:, j, i] = found[:, d:]
-        curvatures = np.linalg.eigvalsh(form)
-        arch = np.where(-curvatures[:, 0] > curvatures[:, -1], curvatures[:, 0], curvatures[:, -1])
+        arch = _arch(form)
     bend = np.einsum("mae,mab,mbf->mef", axes, form, axes) / size[:, None, None]
     return found[:, 0] * size, np.einsum("ma,mae->me", found[:, 1:d], axes), bend, arch / size
+
+
+def _arch(form: Array) -> Array:
+    """(m,) One curvature of surfaces with forms (m, k, k): that of a sphere, of a cylinder where they are one.
+
+    The mean of both, weighted by their squares: smooth where both are the same, too, as the larger one is not.
+
+    Examples
+    --------
+    >>> _arch(np.array([np.diag([2.0, 2.0]), np.diag([0.0, 3.0]), np.zeros((2, 2))])).tolist()
+    [2.0, 3.0, 0.0]
+    """
+    squares = np.sum(form**2, axis=(1, 2))
+    cubes = np.sum(form * (form @ form), axis=(1, 2))
+    return np.asarray(np.divide(cubes, squares, out=np.zeros(len(form)), where=squares > 0.0))
 
 
 def _at_nodes(kind: FacetBlock, surface: Smooth) -> tuple[Array, Array]:

@@ -7,8 +7,9 @@ one way, a surface of constant curvature is laid through them all,
 
     z + k z^2 / 2 + (level + slope . x + x . bend x / 2) = 0,
 
-z along the facet's outward normal, k the largest principal curvature: exactly a circle, a sphere, a cylinder where the
-nodes lie on one. Corners of the body end it, and so do facets that lie in a plane with others.
+z along the facet's outward normal, k the mean of the principal curvatures, weighted by their squares: exactly a
+circle, a sphere, a cylinder where the nodes lie on one. Corners of the body end it, and so do facets that lie in a
+plane with others.
 """
 
 from __future__ import annotations
