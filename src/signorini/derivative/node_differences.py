@@ -21,8 +21,8 @@ from signorini.arrays import Array, BoolArray, IntArray, extent
 from signorini.fem.space import Space
 
 _STEP = 1e-6  # of the size of the model: how far nodes move
-_TURN = 1e-5  # of a motion of as long as facets: by how much they turn where all nodes move at once
-_SAME = 1e-5  # of what numbers change by together: sums that differ by less are the same up to differences
+_ALL_STEP = 1e-5  # of a motion of as long as facets: by how much they turn where all nodes move at once
+_SUM_TOL = 1e-5  # of what numbers change by together: sums that differ by less are the same up to differences
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -74,11 +74,11 @@ def adds_up(space: Space, gradient: Array, motion: Array, numbers: Callable[[Spa
     """
     points, before = space.mesh.points, space.displacement
     low, middle, half, high = (
-        numbers(space.at(points + part * _TURN * motion, before)) for part in (-1.0, 0.0, 0.5, 1.0)
+        numbers(space.at(points + part * _ALL_STEP * motion, before)) for part in (-1.0, 0.0, 0.5, 1.0)
     )
-    upwards, both = (4.0 * half - 3.0 * middle - high) / _TURN, (high - low) / (2.0 * _TURN)
+    upwards, both = (4.0 * half - 3.0 * middle - high) / _ALL_STEP, (high - low) / (2.0 * _ALL_STEP)
     wanted, size = float(np.vdot(gradient, motion)), float(np.abs(both).sum())
-    return max(abs(float(found.sum()) - wanted) for found in (upwards, both)) <= _SAME * size
+    return max(abs(float(found.sum()) - wanted) for found in (upwards, both)) <= _SUM_TOL * size
 
 
 def colours_of(near: sp.csr_array) -> IntArray:
