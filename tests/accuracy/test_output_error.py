@@ -26,6 +26,27 @@ def test_what_stresses_lack_with_signs_is_believed_where_it_told_the_changes():
     assert output_error(levels(errors)) > 9.0 * abs(errors[-1])
 
 
+def test_changes_that_fall_fast_are_believed_the_second_time():
+    """The peak between two cylinders: changes fall tenfold and more while nodes grow threefold."""
+    errors, nodes = [0.19, 7.8e-3, 6.1e-4, 4.8e-5, -5.1e-6], (422, 1325, 4574, 13576, 40941)
+    assert output_error(levels(errors[:4], nodes=nodes)) > 10.0 * errors[3]  # the first mesh was given
+    assert 1.0 <= output_error(levels(errors, nodes=nodes)) / 5.1e-6 <= 10.0
+
+
+def test_a_fall_that_was_slow_before_or_turns_is_not_believed():
+    """The change over two meshes counts, by the root of their nodes."""
+    nodes = (422, 1325, 4574, 13576, 40941)
+    for errors in ([0.19, 7.8e-3, 4.8e-3, 2.5e-3, 2.4e-3], [0.19, 7.8e-3, 6.1e-4, 4.8e-5, 1.2e-4]):
+        told = abs(errors[4] - errors[2]) * (nodes[2] / nodes[4]) ** 0.5
+        assert output_error(levels(errors, nodes=nodes)) == pytest.approx(told)
+
+
+def test_a_last_change_that_is_too_small_counts_as_the_fall_before_it():
+    """It falls a thousandfold by luck after it has fallen by a part of 0.06."""
+    errors = [0.2, 0.1, 6.0e-3, 3.0e-4, 2.94e-4]
+    assert output_error(levels(errors)) > 1.5e-4
+
+
 def test_luck_on_the_last_mesh_is_not_believed():
     """The friction of the paper's cylinder: two meshes agree to a thousandth, and are a hundredth away from the truth.
 

@@ -79,7 +79,7 @@ def output_error(levels: Sequence[OutputLevel]) -> float:
     older = levels[-3] if len(levels) > 2 and np.isfinite(levels[-3].value) else None
     if older is not None and len(levels) > 3:  # the first mesh, given, says nothing about the third
         found = max(found, abs(last.value - older.value) * (older.nodes / last.nodes) ** SLOW_FALL)
-    confirmed = [*_by_stresses(levels), *([] if older is None else _series(older, before, last))]
+    confirmed = [*_by_stresses(levels), *_series(levels)]
     least = abs(change) * (before.nodes / last.nodes) ** FASTEST_FALL
     return max(min([max(found, abs(last.signed)), *confirmed]), least)
 
@@ -97,12 +97,20 @@ def _by_stresses(levels: Sequence[OutputLevel]) -> list[float]:
     return found
 
 
-def _series(older: OutputLevel, before: OutputLevel, last: OutputLevel) -> list[float]:
-    """What is left of changes of one sign, each a part of the one before it."""
-    change, previous = last.value - before.value, before.value - older.value
-    ratio = change / previous if previous else 0.0
-    nodes = before.nodes / last.nodes
-    if not nodes**2 < ratio < _REGULAR:
+def _series(levels: Sequence[OutputLevel]) -> list[float]:
+    """What is left of changes of one sign, each a part of the one before it.
+
+    A part below the square of the ratio of nodes may be luck on one mesh. It is believed where the part before, of
+    meshes that were refined, is no larger than the ratio of their nodes, and then no more than that part.
+    """
+    changes = np.diff([level.value for level in levels[-4:]])
+    if len(changes) < 2 or not np.isfinite(changes[-2:]).all() or not changes[:-1].all():
         return []
-    part = max(ratio, nodes)
-    return [SAFE_FACTOR * part / (1.0 - part) * abs(change)]
+    parts, change = changes[1:] / changes[:-1], abs(changes[-1])
+    nodes = [one.nodes / other.nodes for one, other in zip(levels[-3:], levels[-2:], strict=False)]
+    part = max(parts[-1], nodes[-1])
+    if not nodes[-1] ** 2 < parts[-1] < _REGULAR:
+        if len(levels) < 5 or not (0.0 < parts[0] < nodes[0] and 0.0 < parts[1] < nodes[1]):
+            return []
+        part, change = max(*parts, nodes[-1]), max(change, parts[0] * abs(changes[-2]))
+    return [float(SAFE_FACTOR * part / (1.0 - part) * change)]
