@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 import ctypes
+import mmap
 import os
 import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
+import numpy as np
+
+from signorini.arrays import Array
 from signorini.errors import InputError, Where
 
 try:
@@ -22,6 +26,11 @@ _GROUP_FILES = {
     "memory": ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
 }
 """Limit and use of a control group, and in ``memory.stat`` what of it is cached files that give way."""
+
+_ARENA_MAX = -8  # M_ARENA_MAX of glibc's malloc.h
+
+_PAGES_FROM = 131_072
+"""Numbers, a megabyte of them, from which asking the system for pages costs nothing beside writing to them."""
 
 _WAYS_OUT = "expected a coarser mesh, more memory, or in space back end 'iterative'"
 
@@ -104,6 +113,37 @@ def give_memory_back() -> None:
     """
     with suppress(AttributeError, OSError, TypeError):  # of glibc alone
         ctypes.CDLL(None).malloc_trim(0)
+
+
+def share_one_heap() -> None:
+    """Have all threads of this process take memory from one heap; nothing where the C library is not glibc.
+
+    From heaps of their own, of 64 MB each, what they free on top is never given back. For a process of our own, before
+    it has threads.
+
+    >>> share_one_heap()
+    """
+    with suppress(AttributeError, OSError, TypeError):
+        ctypes.CDLL(None).mallopt(_ARENA_MAX, 1)
+
+
+def apart(size: int) -> Array:
+    """Numbers that are not set yet and whose memory the system has again as soon as nobody holds them.
+
+    What threads free the C library keeps for them, up to 64 MB for each. Pages that nobody writes to take no memory.
+
+    Parameters
+    ----------
+    size : how many; below a megabyte they come from the C library
+
+    Examples
+    --------
+    >>> apart(3).shape, apart(200_000).shape
+    ((3,), (200000,))
+    """
+    if size < _PAGES_FROM:
+        return np.empty(size)
+    return np.frombuffer(mmap.mmap(-1, 8 * size), dtype=np.float64)
 
 
 def out_of_memory(error: MemoryError) -> str:

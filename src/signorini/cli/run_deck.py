@@ -25,6 +25,7 @@ from signorini.engine.first_run import FIRST_SOLVE, compiles_first
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed
 from signorini.linalg.threads import one_thread
+from signorini.memory import share_one_heap
 from signorini.model.accuracy import Accuracy, Asked
 from signorini.outcome import Outcome
 from signorini.output.archive import read_archive
@@ -56,6 +57,7 @@ def run_deck(deck: Deck, options: argparse.Namespace, clock: Clock, started: flo
     The exit code: 0, 3, or 130 where it was interrupted: what was finished before is written
     """
     refuse_unknown(options.backend, ("--backend",))
+    share_one_heap()
     start = _start(options.start)
     path = Path(options.folder) if options.folder else Path("out", deck.path.stem)
     note = FIRST_SOLVE if compiles_first(deck.model) else ""

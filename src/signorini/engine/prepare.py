@@ -309,8 +309,7 @@ def prepare(
     first = increments_before(examined, start, backend) if saves else np.inf
     number = first + increments_of(next(stages(model, before=before)), examined) if saves else np.inf
     made = condensed_model(examined, K, near, backend, settings or SolverSettings(), clock, increments=number)
-    if made.spared:  # every step counts its own
-        made = replace(made, increments=first)
+    made = replace(made, increments=first) if made.spared else made  # every step counts its own
     wearing = worn_sides(made.space, made.model, made.interface) if model.wears else None
     if wearing is not None and made.solver.condensed is None:
         raise InputError(_UNCONDENSED_WEAR, where=("contact", int(wearing.contact[0]), "wear"))
@@ -351,9 +350,8 @@ def condensed_model(
     known : the bodies factorised with these candidates, where they were
     increments : that a factor serves, see `Prepared`
     """
-    interface = examined.interface
+    interface, yields = examined.interface, examined.model.yields
     data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
-    yields = examined.model.yields
     bent, condensed, plans = 0.0, known, Plans() if yields else None
     reduced, way = None, CONDENSED
     solver: CondensedSolver | MultiplierSolver
@@ -374,6 +372,8 @@ def condensed_model(
                 solver = replace(make_multipliers(examined, reduced, bodies.B, candidates, settings), most=way.most)
         if not way.worth:
             condensed = condense_bodies(examined, bodies, candidates, backend, clock, plans)
+        del bodies
+    reduced = reduced if yields else None  # as large as K, and tangents alone ask for it
     if condensed is not None:
         bent = softness(examined, condensed)
         data["scale"] = examined.scale.bent(bent)
@@ -394,7 +394,7 @@ def condensed_model(
         settings=settings,
         softness=bent,
         plans=plans,
-        reduced=reduced if yields else None,
+        reduced=reduced,
         increments=increments if 0.0 < way.worth < np.inf else np.inf,
         worth=way.worth,
     )

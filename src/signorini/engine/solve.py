@@ -39,7 +39,7 @@ from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import pairs_of
 from signorini.linalg.threads import one_thread
-from signorini.memory import out_of_memory
+from signorini.memory import give_memory_back, out_of_memory
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
 from signorini.outcome import Outcome
@@ -51,6 +51,9 @@ from signorini.solution.results import Instant, StepResult
 from signorini.solution.scale import Loading, data_scale
 from signorini.solution.state import LoadPoint, State, initial_state
 from signorini.solution.wear_state import unworn
+
+_GIVEN_BACK_FROM = 250_000
+"""Unknowns from which the milliseconds that it takes to give memory back are worth it."""
 
 RELAXED = "friction is lower than what pairs carried: they slip at once, before the loads of the step"
 """What a step says whose change of friction lets pairs slip."""
@@ -229,6 +232,8 @@ def _follow(
                     why = far if prepared.limited else "once more, on the condensed interface"
                     with prepared.clock.again(why):
                         prepared = prepared.widened()
+            if prepared.space.number_of_dofs > _GIVEN_BACK_FROM:
+                give_memory_back()  # of recovery, before results at all events are made beside the factor
             result = step_result(now, stage, followed, cycle_ends)
             so_far = followed.after, stage.standing, loading, prepared.candidates, prepared.increments
             after = Checkpoint.of(model, interface, *so_far)

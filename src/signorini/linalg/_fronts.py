@@ -25,6 +25,7 @@ from signorini.linalg._blas import (
 )
 from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.plan import Fronts
+from signorini.memory import apart
 
 TILE = 64  # rows and columns that are mirrored at a time, so that they stay in the cache
 
@@ -90,7 +91,7 @@ class Stacks(NamedTuple):
 def stacks(fronts: Fronts, n: int, size: tuple[int, int]) -> Stacks:
     """Give empty stacks of a size for fronts of n unknowns."""
     widest = int(fronts.below.max(initial=0))
-    left = np.empty(size[0]), np.empty(size[1])
+    left = apart(size[0]), apart(size[1])
     waiting = np.empty((2, len(fronts.parent)), np.int32)
     room = np.empty(n, np.int32), np.empty(widest, np.int32), np.empty(widest + 1, np.int32)
     return Stacks(left, np.zeros(2, np.int64), waiting, np.zeros(2, np.int64), *room, scratch())

@@ -32,6 +32,7 @@ from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.shared_fronts import factorise_parts
 from signorini.linalg.system import System, as_columns, like
 from signorini.linalg.threads import one_thread
+from signorini.memory import give_memory_back
 
 _LOADS_AT_ONCE = 16  # loads that one thread solves for: the factor is read once for all of them
 
@@ -135,6 +136,7 @@ def factorise(system: System, plans: Plans | None = None) -> MultifrontalFactori
     tree = _fronts.Tree(plan.fronts, system.rows, Elimination(plan.order, place), slots, made)
     with one_thread():
         if len(plan.parts) > 1:
+            give_memory_back()  # what the plan was made with, a tenth of the matrix and more
             with Crew(number_of_threads()) as crew:
                 failed = factorise_parts(tree, plan, crew)
         else:

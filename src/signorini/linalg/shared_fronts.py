@@ -20,6 +20,7 @@ from signorini.linalg._blas import StoredMatrix, scratch
 from signorini.linalg._fronts import Stacks, Tree
 from signorini.linalg.plan import Fronts, Part, Plan
 from signorini.linalg.schedule import FrontTask, tasks
+from signorini.memory import apart
 
 
 class NoPivot(Exception):
@@ -74,6 +75,7 @@ class _Shared:
         self._tree = tree
         sizes = [_most_waiting(tree.fronts, part) for part in plan.parts if part.branch]
         self._size = max((size[0] for size in sizes), default=0), max((size[1] for size in sizes), default=0)
+        self._ahead = deque(range(len(sizes)))  # branches that nobody has begun
         self._spare: deque[Stacks] = deque()
         self._left: dict[int, Array] = {}
         self._begun: dict[int, _Front] = {}
@@ -103,6 +105,7 @@ class _Shared:
     def _eliminate_branch(self, task: FrontTask) -> None:
         """Eliminate fronts, and keep what is left of them."""
         tree = self._tree
+        self._ahead.pop()
         try:
             stacks = self._spare.pop()
         except IndexError:
@@ -114,10 +117,14 @@ class _Shared:
             top = 0
             for t in stacks.waiting[side, : stacks.number[side]].tolist():
                 size = int(tree.fronts.below[t]) ** 2
-                self._left[t] = stacks.left[side][top : top + size].copy()
+                self._left[t] = apart(size)
+                self._left[t][:] = stacks.left[side][top : top + size]
                 top += size
         stacks.top[:] = stacks.number[:] = 0
-        self._spare.append(stacks)
+        if self._ahead:
+            self._spare.append(stacks)
+        else:  # what follows is the largest fronts
+            self._spare.clear()
 
     def _begin(self, t: int) -> None:
         """Make room for what will be left of a front, and see where its children go."""
@@ -130,7 +137,7 @@ class _Shared:
             target = np.searchsorted(rows, _below(fronts, child)).astype(np.int32)
             runs = np.flatnonzero(np.diff(target, prepend=-2, append=-2) != 1).astype(np.int32)
             children.append((self._left.pop(child), target, runs))
-        self._begun[t] = _Front(below, np.empty(len(below) ** 2), children)
+        self._begun[t] = _Front(below, apart(len(below) ** 2), children)
 
     def _gather(self, task: FrontTask) -> None:
         """Gather columns of a front from K and from what its children left."""
