@@ -18,10 +18,10 @@ from signorini.engine.examine import Examined
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
 from signorini.engine.turning import turning_notes
-from signorini.fem.boundary import boundary
 from signorini.fem.locking import modes_in_flow
 from signorini.fem.rigid import ConnectedBody
 from signorini.law.states import OPEN
+from signorini.meshing.facets import facet_corners
 from signorini.solution.state import State
 
 ONE_INCREMENT = "one increment: assumes that the final state was reached from zero slip"
@@ -136,10 +136,10 @@ def patch_notes(prepared: Prepared, state: State) -> Iterator[str]:
 def _fewest(prepared: Prepared, i: int, nodes: IntArray, closed: BoolArray) -> int:
     """Pairs across the smallest patch of a contact that ends between open pairs; four where there are enough."""
     space = prepared.space
-    blocks = boundary(space, prepared.interface.sides[i].nonmortar, ("contact", i)).blocks
+    named = space.mesh.facets(prepared.interface.sides[i].nonmortar)  # of cells, which are many, nothing is asked
     place = np.full(len(space.mesh.points), -1)
     place[nodes] = np.arange(len(nodes))
-    facets = [place[block.facets[:, : block.corners]] for block in blocks]
+    facets = [place[given[:, : facet_corners(space.dimension, given.shape[1])]] for given in named]
     one, two = np.concatenate([np.stack([at, np.roll(at, -1, axis=1)]).reshape(2, -1) for at in facets], axis=1)
     both = (one >= 0) & (two >= 0)
     one, two = np.concatenate([one[both], two[both]]), np.concatenate([two[both], one[both]])
