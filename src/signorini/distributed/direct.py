@@ -171,7 +171,7 @@ class FactorsHeld:
     MemoryError
         If MUMPS has too little memory.
     InputError
-        If it fails for any reason but an interior that is not positive definite.
+        If it does not fit, or fails for any reason but an interior that is not positive definite.
     """
 
     def __init__(self, matrix: MatrixOnRanks, edge: IntArray) -> None:
@@ -183,6 +183,8 @@ class FactorsHeld:
         pieces = self._asked(place[edge])
         made = team.everywhere(hold_factors, matrix.on_ranks.number, self._number, pieces=pieces)
         self.made: FactorsMade = made[0]
+        what = f"back end '{MUMPS}', for the factor of {z} unknowns and dense matrices of {len(edge)} of the contacts,"
+        self.made.room.refuse(what)
         if self.made.status in _NO_MEMORY:
             raise MemoryError(f"MUMPS has too little memory (INFOG {self.made.status}, {self.made.detail})")
         if self.made.status < 0 and self.made.status not in _SINGULAR:

@@ -23,6 +23,7 @@ from signorini.arrays import Array, IntArray
 from signorini.distributed.multigrid import matrix, set_options
 from signorini.distributed.parts import OwnBodies
 from signorini.distributed.ranks import Team
+from signorini.distributed.room import Room, room_for
 
 _OPTIONS = {
     "mat_mumps_icntl_7": 5,  # the order of elimination is METIS's
@@ -31,6 +32,9 @@ _OPTIONS = {
 }
 _ONLY_INSIDE = 26, 0  # ICNTL: solves leave out the unknowns of the Schur complement
 _STATUS, _DETAIL, _NEGATIVE = 1, 2, 12  # numbers in INFOG: how it ended, what more is said of it, pivots below 0
+_MEGABYTES = 15  # number in INFO: what a rank will take, which is known before anything is factorised
+_DENSE = 6.0  # matrices of the size of the interface that the first rank holds at once, as one process does
+_INFORMATION = 64  # numbers that have room for what PETSc says to a factorisation, of which MUMPS hears nothing
 
 
 class AskedOfFactors(NamedTuple):
@@ -55,12 +59,14 @@ class FactorsMade(NamedTuple):
     ----------
     status, detail : INFOG(1) and INFOG(2) of MUMPS; not below 0 where it ran through
     negative : pivots below 0
+    room : for the factors and the interface, on the machine that has least; where they do not fit they are not made
     condensed : (k, k) Schur complement, on the first rank; None on the others, and where there is none
     """
 
     status: int
     detail: int
     negative: int
+    room: Room
     condensed: Array | None
 
 
@@ -97,12 +103,18 @@ class OwnFactors:
         count = int(team.total(len(kept)))
         if count:
             _petsc("MatFactorSetSchurIS", self._matrix, self._kept)
-        self._solver.setUp()
+        information = (ctypes.c_double * _INFORMATION)()
+        _petsc("MatFactorInfoInitialize", ctypes.byref(information))
+        _petsc("MatCholeskyFactorSymbolic", self._matrix, A, None, ctypes.byref(information))
+        room = room_for(team, 1e6 * self._matrix.getMumpsInfo(_MEGABYTES) + 8.0 * _DENSE * len(kept) ** 2)
+        if room.asked <= room.free:
+            _petsc("MatCholeskyFactorNumeric", self._matrix, A, ctypes.byref(information))
         status, detail, negative = (self._matrix.getMumpsInfog(number) for number in (_STATUS, _DETAIL, _NEGATIVE))
-        if status >= 0 and count:
+        made = status >= 0 and room.asked <= room.free
+        if made and count:
             self._matrix.setMumpsIcntl(*_ONLY_INSIDE)
-        condensed = self._condensed(count) if team.first and status >= 0 else None
-        self.made = FactorsMade(status, detail, negative, condensed)
+        condensed = self._condensed(count) if team.first and made else None
+        self.made = FactorsMade(status, detail, negative, room, condensed)
         self._x, self._b = A.createVecs()
 
     def _condensed(self, count: int) -> Array:
@@ -126,7 +138,7 @@ class OwnFactors:
         result = np.empty_like(f)
         for k, forces in enumerate(f.T):
             self._b.array[: self._own], self._b.array[self._own :] = forces, 0.0
-            self._solver.solve(self._b, self._x)
+            self._matrix.solve(self._b, self._x)
             result[:, k] = self._x.array[: self._own]
         return result
 

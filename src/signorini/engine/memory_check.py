@@ -47,6 +47,19 @@ _WAYS_OUT = "a coarser mesh, more memory, or the ranks of more machines (back en
 _SHARE = 0.5  # of the memory that there is: what displacements that are asked for may fill
 
 
+def likely_entries(model: Model) -> float:
+    """Entries that the stiffness will have, nearly.
+
+    Parameters
+    ----------
+    model : which is not assembled yet
+    """
+    return sum(
+        _SHARED.get(family, _SHARED_ELSE) * cells.shape[0] * (cells.shape[1] * model.components) ** 2
+        for family, cells in model.mesh.cells.items()
+    )
+
+
 def refuse_unassembled(model: Model) -> None:
     """Refuse a model that fits in no way, before anything is assembled: of the plane one whose stiffness does not.
 
@@ -55,12 +68,8 @@ def refuse_unassembled(model: Model) -> None:
     InputError
         With the least that it takes and what there is.
     """
-    entries = sum(
-        _SHARED.get(family, _SHARED_ELSE) * cells.shape[0] * (cells.shape[1] * model.components) ** 2
-        for family, cells in model.mesh.cells.items()
-    )
     each, what = (_LEAST_IN_SPACE, "a solve") if model.dimension == 3 else (_ASSEMBLY, "the stiffness")
-    asked, room = each * entries, available_memory()
+    asked, room = each * likely_entries(model), available_memory()
     if asked > room:
         unknowns = model.number_of_dofs
         raise InputError(

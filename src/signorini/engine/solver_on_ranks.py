@@ -11,11 +11,17 @@ from signorini.distributed.bodies import RowsOnRanks, make_bodies_on_ranks
 from signorini.distributed.direct import MatrixOnRanks
 from signorini.distributed.ranks import MUMPS, PETSC, the_team
 from signorini.distributed.refusals import refuse_without_mumps
+from signorini.distributed.room import room_for
 from signorini.distributed.stiffness import StiffnessOnRanks
 from signorini.engine.examine import Examined
+from signorini.engine.memory_check import likely_entries
 from signorini.engine.multipliers import MultiplierSolver
 from signorini.fem.kinematics import straining_groups
 from signorini.settings import SolverSettings
+
+# least bytes an entry of the stiffness, on all ranks together: where they are iterated on cubes of 25,000 to 130,000
+# unknowns take 80, with coarse grids and springs; for MUMPS pieces and rows, 12 each, and the factor when it is known
+_LEAST = {PETSC: 70.0, MUMPS: 24.0}
 
 
 def way_on_ranks(examined: Examined) -> str:
@@ -54,13 +60,16 @@ def stiffness_on_ranks(examined: Examined, backend: str) -> tuple[StiffnessOnRan
     Raises
     ------
     InputError
-        If it is to be factorised, and PETSc cannot.
+        If it is to be factorised, and PETSc cannot; or a machine of the ranks has too little memory.
     """
     way = way_on_ranks(examined) if backend == PETSC else backend
     if way == MUMPS:
         refuse_without_mumps()
+    team = the_team()
+    share = _LEAST[way] * likely_entries(examined.model) / team.size
+    team.everywhere(room_for, share)[0].refuse(f"back end '{way}', for {examined.model.number_of_dofs} unknowns,")
     space, model, constraints = examined.space, examined.model, examined.constraints
-    return StiffnessOnRanks(the_team(), space, model, constraints, examined.interface), way
+    return StiffnessOnRanks(team, space, model, constraints, examined.interface), way
 
 
 def solver_on_ranks(
