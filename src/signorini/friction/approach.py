@@ -160,7 +160,7 @@ def _velocity(P: Array, touching: BoolArray, friction: Array, load: Array) -> Ar
     forces, state = found
     v: Array = load + rows.T @ forces
     held = rows[np.concatenate([state != OPEN, np.tile(state == STICK, d - 1)])]
-    v -= np.linalg.lstsq(held, held @ v)[0]  # what the compliance of the pairs lets pass
+    v -= np.linalg.lstsq(held, held @ v, rcond=None)[0]  # what the compliance of the pairs lets pass
     return v if np.linalg.norm(v) > _VELOCITY_TOL else still
 
 
