@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import gc
 import pickle
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
@@ -21,16 +22,22 @@ from signorini.turn import Turn
 UNREADABLE = (AttributeError, ImportError, EOFError, pickle.UnpicklingError)
 """What reading an index of compiled loops ends in, where it is of a version of the package whose classes are gone."""
 
+PATIENCE = 1.0
+"""Seconds of a process for which Python interprets a loop that most call a few times: to compile one takes 1 to 2."""
+LITTLE_DATA = 50_000
+"""Entries of the largest array over which it does: a loop over all of them takes some hundredths of a second."""
+
 _Loop = TypeVar("_Loop", bound=Callable[..., Any])
 
 
-def kernel(**options: Any) -> Callable[[_Loop], _Loop]:
+def kernel(*, brief: bool = False, **options: Any) -> Callable[[_Loop], _Loop]:
     """Compile what Python calls; the first run leaves it on disk. A wrapper for callers in C would be for nobody.
 
     Divided by zero numbers become inf and nan, as NumPy's do: branches to an exception take a sixth longer to compile.
 
     Parameters
     ----------
+    brief : most processes call it a few times, on little data: Python interprets it first
     options : further ones of Numba's
     """
     made = njit(cache=True, no_cfunc_wrapper=True, error_model="numpy", **options)  # type: ignore[call-overload]
@@ -41,6 +48,8 @@ def kernel(**options: Any) -> Callable[[_Loop], _Loop]:
         index = getattr(getattr(compiled, "_cache", None), "_cache_file", None)
         if type(index) is IndexDataCacheFile:
             index.__class__ = _Index
+            if brief:
+                compiled.__class__ = _Brief  # type: ignore[assignment]
         return compiled
 
     return kept
@@ -148,8 +157,36 @@ class _Patient(CPUDispatcher):
         types = tuple(self.typeof_pyval(argument) for argument in arguments)
         if types in self.overloads or _on_disk(self, types):
             return super().__call__(*arguments)
+        return self.interpret(arguments)
+
+    def interpret(self, arguments: tuple[Any, ...]) -> Any:
+        """What the loop returns, or leaves in its arguments, by Python."""
         with np.errstate(all="ignore"):  # as compiled loops do
             return self.py_func(*arguments)
+
+
+class _Brief(_Patient):
+    """One that Python interprets on little data, until that has taken about as long as to compile it."""
+
+    spent = 0.0
+    """Seconds so far."""
+
+    def interpret(self, arguments: tuple[Any, ...]) -> Any:
+        """By Python where that is quick, compiled from now on where it is not."""
+        if self.spent > PATIENCE or any(_entries(argument) > LITTLE_DATA for argument in arguments):
+            return CPUDispatcher.__call__(self, *arguments)
+        begin = time.perf_counter()
+        try:
+            return super().interpret(arguments)
+        finally:
+            self.spent += time.perf_counter() - begin
+
+
+def _entries(argument: Any) -> int:
+    """How many entries the largest array of an argument has, a named tuple of arrays too."""
+    if isinstance(argument, tuple):
+        return max((_entries(part) for part in argument), default=0)
+    return int(np.size(argument))
 
 
 def _on_disk(loop: Any, types: tuple[Any, ...]) -> bool:
@@ -166,14 +203,14 @@ def interpreted(loops: Sequence[Any]) -> Iterator[None]:
     ----------
     loops : kernels
     """
-    waiting = [loop for loop in loops if type(loop) is CPUDispatcher]
-    for loop in waiting:
+    waiting = [(loop, type(loop)) for loop in loops if type(loop) in (CPUDispatcher, _Brief)]
+    for loop, _ in waiting:
         loop.__class__ = _Patient
     try:
         yield
     finally:
-        for loop in waiting:
-            loop.__class__ = CPUDispatcher
+        for loop, before in waiting:
+            loop.__class__ = before
 
 
 class _NoGarbage(event.Listener):

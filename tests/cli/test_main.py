@@ -14,6 +14,7 @@ import pytest
 
 import signorini as sg
 from signorini.cli import main
+from signorini.verify.rows import ALL
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CYLINDER = str(EXAMPLES / "zhu_cylinder.toml")
@@ -168,18 +169,18 @@ def test_verify(
 ) -> None:
     asked = []
 
-    def run(slow: bool, begin: Any, processes: int, _beside: Any) -> Iterator[dict[str, Any]]:
+    def run(where: str, begin: Any, processes: int) -> Iterator[dict[str, Any]]:
         assert processes >= 1
-        asked.append(slow)
+        asked.append(where)
         for done, one in enumerate(passed):
             begin("disk", done, len(passed))
             assert capsys.readouterr().out.count("Hertz") == min(done, 1)  # the row before is there already
             yield CASE | {"passed": one}
 
-    monkeypatch.setitem(sys.modules, "signorini.verify.suite", types.SimpleNamespace(verification_rows=run))
+    monkeypatch.setattr("signorini.verify.rows.shared_rows", run)
     file = tmp_path / "cases.json"
     assert main(["verify", "--all", "--json", str(file)]) == code
-    assert asked == [True]
+    assert asked == [ALL]
     assert [case["passed"] for case in json.loads(file.read_text())] == passed
     said = capsys.readouterr().out
     assert ("NO" in said) == (passed[-1:] == [False])

@@ -82,3 +82,43 @@ def test_python_calls_no_part_of_a_kernel():
             )
             wrong += [f"{module}.{function.name}: {name}" for name in sorted(known & (called | set(asked)))]
     assert wrong == []
+
+
+BRIEF = """\
+import sys
+import numpy as np
+from signorini import compilation
+from signorini.compilation import kernel
+
+compilation.PATIENCE = float(sys.argv[1])
+
+@kernel(brief=True)
+def last(values, weight):
+    total = 0.0
+    for value in values:
+        total += weight / value
+    return total
+
+values = np.linspace(0.0, 3.0, int(sys.argv[2]))
+print(last(values, 0.1).hex(), last(values, 0.1).hex(), len(last.overloads))
+"""
+
+
+@pytest.mark.slow
+def test_a_brief_loop_is_interpreted_until_that_takes_as_long_as_to_compile(tmp_path):
+    """With the same digits: on little data, while there is patience; and not where it is on disk."""
+    (tmp_path / "brief.py").write_text(BRIEF)
+
+    def told(*asked: str) -> list[str]:
+        command = [sys.executable, "-W", "error", "brief.py", *asked]
+        run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+        return run.stdout.split()
+
+    interpreted = told("10", "1000")
+    many, again = told("10", "60000"), told("10", "1000")
+    assert [interpreted[2], many[2], again[2]] == ["0", "1", "1"]
+    for index in (tmp_path / "__pycache__").glob("brief*"):
+        index.unlink()
+    impatient = told("-1", "1000")
+    assert impatient[2] == "1"
+    assert len({*interpreted[:2], *again[:2], *impatient[:2]}) == 1

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -39,15 +38,13 @@ def verify(options: argparse.Namespace) -> int:
     """Print every row as soon as it is computed; 0 only if every case passed."""
     file = _json_file(options.json)
     from signorini.cores import number_of_threads
-    from signorini.engine.first_run import compiled
-    from signorini.verify.suite import verification_rows
+    from signorini.verify.rows import ALL, QUICK, shared_rows
 
-    beside = None if compiled() else importlib.import_module("signorini.engine.first_run").compile_loops
     processes = min(number_of_threads(), _PROCESSES)
     cases: list[Mapping[str, Any]] = []
     with progress_bar() as tell:
         print(_line(_VERIFY_COLUMNS))
-        for case in verification_rows(options.all, _beginning(tell), processes, beside):
+        for case in shared_rows(ALL if options.all else QUICK, _beginning(tell), processes):
             if not cases or case["case"] != cases[-1]["case"]:
                 print(case["case"])
             cases.append(case)

@@ -45,7 +45,7 @@ def sweeps(
                 z[i] = max(0.0, z[i] - omega * w / diagonal)
 
 
-@kernel(nogil=True)
+@kernel(brief=True, nogil=True)
 def exchange(T: Array, row: int, at: int) -> None:
     """Pivot a Fortran-ordered condensed tableau in place on ``T[row, at]``.
 

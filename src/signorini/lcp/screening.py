@@ -12,7 +12,7 @@ TRUSTED_PIVOT, ZERO_PIVOT = 1e-9, 1e-13  # over the first pivot: relied on above
 INCONSISTENCY = 1e-6  # of the largest unknown: what may remain of q where the block is singular
 
 
-@kernel()
+@kernel(brief=True)
 def eliminate_pivoting(block: Array, size: int, order: IntArray) -> int:
     """Gauss elimination of ``block[:size, :size + 1]`` with complete pivoting; returns the rank.
 
@@ -47,7 +47,7 @@ def eliminate_pivoting(block: Array, size: int, order: IntArray) -> int:
     return size
 
 
-@kernel()
+@kernel(brief=True)
 def substitute_back(block: Array, size: int, rank: int) -> float:
     """Solve for the first ``rank`` unknowns after elimination; returns the largest of them with the others 0, or 1.
 
@@ -129,7 +129,7 @@ def _list_bits(mask: int, n: int, support: IntArray) -> int:
     return size
 
 
-@kernel(nogil=True)
+@kernel(brief=True, nogil=True)
 def screen(A: Array, q: Array, tolerance: float, lack: Array) -> None:
     """Write into ``lack[mask]`` what a solution with its positive components exactly on the bits of the mask lacks.
 

@@ -43,7 +43,7 @@ def blocking(column: Array, rhs: Array, tolerances: Tolerances, rows: IntArray) 
     return count, step
 
 
-@kernel()
+@kernel(brief=True)
 def least_lexicographic(tableau: DelayedTableau, used: int, rates: Array, count: int, tolerance: float) -> int:
     """Row of the basis inverse that, over its rate, is lexicographically least.
 
@@ -130,7 +130,7 @@ def exchange_delayed(tableau: DelayedTableau, used: int, row: int, at: int) -> N
     fresh[m - 1] = fresh[at] = 0.0
 
 
-@kernel(nogil=True)
+@kernel(brief=True, nogil=True)
 def walk(
     tableau: DelayedTableau, entering: int, limit: int, theta_stays: bool, tolerances: Tolerances
 ) -> tuple[int, int, int, int]:

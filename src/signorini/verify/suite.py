@@ -1,14 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run the verification cases."""
+"""The verification cases in the order of their rows."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from functools import partial
-from multiprocessing import get_context
-
-from signorini.cores import threads
 from signorini.verify import (
     bolts,
     bounded,
@@ -38,11 +32,7 @@ from signorini.verify import (
     vibration,
     wear,
 )
-from signorini.verify.check import Check
-
-Case = Callable[[], Iterator[Check]]
-Row = dict[str, str | float | bool]
-Begin = Callable[[str, int, int], None]
+from signorini.verify.rows import Case
 
 QUICK: tuple[Case, ...] = (
     patches.patch_p1,
@@ -129,6 +119,7 @@ SLOW: tuple[Case, ...] = (
     half_planes.cattaneo_mindlin_refined,
     half_planes.spence,
     half_planes.complete_contact,
+    scalar.scalar_signorini_refined,
     solids.spheres_refined,
     space.balls_refined,
     space.round_punch_on_body,
@@ -150,71 +141,7 @@ SLOW: tuple[Case, ...] = (
     wear.worn_block,
 )
 
+ALL = QUICK + SLOW
+"""Cases of `signorini verify --all`."""
 COMPILE_MUCH: tuple[Case, ...] = (plasticity.hills_tube, space.ball_on_block)
 """Where nothing is compiled they go ahead: each has loops that take seconds, others of its kind would wait for them."""
-
-
-def verification_rows(
-    slow: bool = False,
-    begin: Begin = lambda *_: None,
-    processes: int = 1,
-    beside: Callable[[], None] | None = None,
-) -> Iterator[Row]:
-    """Run the quick cases, or all of them: the rows of the table in its order, each as soon as it is computed.
-
-    Parameters
-    ----------
-    slow : whether all
-    begin : told before every case what it is, how many are done and how many there are
-    processes : that share the cases; a row comes once its case is done where there are several
-    beside : what one of them does while the first case runs, where nothing is compiled yet
-
-    Yields
-    ------
-    rows with case, quantity, computed, reference, error, tolerance, source, passed, and at_least: the reference is a
-    lower bound
-    """
-    yield from rows_of(QUICK + SLOW if slow else QUICK, begin, processes, beside)
-
-
-def rows_of(
-    cases: Sequence[Case], begin: Begin, processes: int = 1, beside: Callable[[], None] | None = None
-) -> Iterator[Row]:
-    """Rows of cases.
-
-    Parameters
-    ----------
-    cases : in the order of their rows
-    begin, processes, beside : as of :func:`verification_rows`
-    """
-    if processes == 1:
-        yield from _in_turn(cases, [partial(_rows, case) for case in cases], begin)
-        return
-    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-        futures = {0: pool.submit(_all_rows, cases[0])}
-        ahead: tuple[Case, ...] = ()
-        if beside is not None:
-            pool.submit(beside)
-            ahead = COMPILE_MUCH
-        for k in sorted(range(1, len(cases)), key=lambda k: cases[k] not in ahead):
-            futures[k] = pool.submit(_all_rows, cases[k])
-        try:
-            yield from _in_turn(cases, [futures[k].result for k in range(len(cases))], begin)
-        finally:
-            pool.shutdown(cancel_futures=True)
-
-
-def _in_turn(cases: Sequence[Case], found: Iterable[Callable[[], Iterable[Row]]], begin: Begin) -> Iterator[Row]:
-    for done, (case, rows) in enumerate(zip(cases, found, strict=True)):
-        begin(case.__name__.replace("_", " "), done, len(cases))
-        yield from rows()
-
-
-def _rows(case: Case) -> Iterator[Row]:
-    for check in case():
-        yield check.row()
-
-
-def _all_rows(case: Case) -> list[Row]:
-    with threads(1):
-        return list(_rows(case))

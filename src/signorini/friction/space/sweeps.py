@@ -17,7 +17,7 @@ _LOCAL_STEPS = 30  # of the fixed point of one pair
 _SETTLED = 1e-14  # of its forces: a change that is rounding
 
 
-@kernel()
+@kernel(brief=True)
 def _sweep(
     A: Array, c: Array, axes: Array, slopes: Array, starts: Array, facets: IntArray, step: Array, r: Array, count: int
 ) -> None:

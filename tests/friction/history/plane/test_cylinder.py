@@ -112,7 +112,10 @@ def test_a_segment_cut_short_is_the_one_to_a_smaller_load(part):
     cut = whole.until(part)
     for name in ("b", "h", "r", "slip", "dissipation"):
         one, two = (getattr(segment.end, name) for segment in (cut, shorter))
-        np.testing.assert_allclose(one, two, rtol=0, atol=1e-12 * np.abs(two).max(), err_msg=name)
+        near = 1e-12 * np.abs(two).max()
+        if name in ("r", "slip"):  # what is left of motions that cancel: of their rounding
+            near += 1e-14 * np.abs(shorter.end.h).max()
+        np.testing.assert_allclose(one, two, rtol=0, atol=near, err_msg=name)
     held = shorter.end.state == STICK
     np.testing.assert_array_equal(cut.end.state, shorter.end.state)
     np.testing.assert_allclose(cut.end.anchor[:, held], shorter.end.anchor[:, held], rtol=0, atol=1e-12)
