@@ -22,6 +22,8 @@ from subprocess import PIPE, STDOUT
 
 ROOT = Path(__file__).resolve().parent
 BIN = ROOT / ".venv" / ("Scripts" if os.name == "nt" else "bin")
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+"""Of all programs here: hundreds of processes begin, each of which would compile all modules to bytecode, a second long."""
 
 
 def install(extras: str = "") -> None:
@@ -37,7 +39,7 @@ def install(extras: str = "") -> None:
 
 def run(program: str, *arguments: str, **environment: str) -> None:
     """Run a program of .venv and end with its exit code if it fails."""
-    code = subprocess.call([str(BIN / program), *arguments], cwd=ROOT, env={**os.environ, **environment})
+    code = subprocess.call([str(BIN / program), *arguments], cwd=ROOT, env={**ENVIRONMENT, **environment})
     if code:
         sys.exit(code)
 
@@ -47,7 +49,7 @@ def side_by_side(*programs: tuple[str, ...]) -> None:
 
     None begins after one has failed; then this program ends with that one's exit code.
     """
-    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
+    environment = {**ENVIRONMENT, "OMP_NUM_THREADS": "1"}
 
     def output(program: str, *arguments: str) -> subprocess.CompletedProcess[str]:
         command = [str(BIN / program), *arguments]

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The first run after an installation: the README's deck with nothing compiled, then again with what that left on disk.
 
-On the wall, and CPU seconds of the run itself: another process compiles beside it, and how long that takes is told too.
-Modules are compiled to bytecode before, as an installation leaves them. With ``--loops`` what every loop costs that the
-run itself compiles, alone and with what is compiled for it.
+On the wall, and CPU seconds of the run itself: another process compiles beside it, and how long that takes is told too;
+then ``signorini verify``, likewise. Modules are compiled to bytecode before, as an installation leaves them. With
+``--loops`` what every loop costs that the run itself compiles, alone and with what is compiled for it.
 
 usage: python -m benchmarks.first_solve [--loops]
 """
@@ -68,6 +68,14 @@ def run(cache: Path) -> dict[str, Any]:
     return row
 
 
+def verified(cache: Path) -> float:
+    """Seconds on the wall of ``signorini verify``, in which every case passes."""
+    begin = time.perf_counter()
+    command = [sys.executable, "-m", "signorini", "verify"]
+    subprocess.run(command, check=True, capture_output=True, env={**ENVIRONMENT, "NUMBA_CACHE_DIR": str(cache)})
+    return time.perf_counter() - begin
+
+
 def waited(cache: Path) -> float:
     """Seconds until the other process has left all loops in a folder."""
     begin = time.perf_counter()
@@ -87,12 +95,21 @@ def main() -> None:
         first = run(Path(folder))
         beside = first["wall"] + waited(Path(folder))
         rows = {"nothing compiled": first, "again": run(Path(folder))}
+    with tempfile.TemporaryDirectory() as folder:
+        suite = {name: verified(Path(folder)) for name in rows}
     if options.loops:
         for name, alone, taken in sorted(first["loops"], key=lambda span: -span[1]):
             print(f"{alone:8.3f} {taken:8.3f}  {name}")
-    head = ["run", "s on the wall", "CPU s of the run", "loops compiled by the run"]
+    head = [
+        "run",
+        "s on the wall",
+        "CPU s of the run",
+        "loops compiled by the run",
+        "`signorini verify`, s on the wall",
+    ]
     cells = [
-        [name, page.seconds(row["wall"]), page.seconds(row["cpu"]), len(row["loops"])] for name, row in rows.items()
+        [name, page.seconds(row["wall"]), page.seconds(row["cpu"]), len(row["loops"]), page.seconds(suite[name])]
+        for name, row in rows.items()
     ]
     words = f"The other process has compiled all {beside:.0f} s after the beginning of the first run."
     load = f"{page.machine()}, load {os.getloadavg()[0]:.1f} after."
