@@ -23,7 +23,7 @@ from subprocess import PIPE, STDOUT
 ROOT = Path(__file__).resolve().parent
 BIN = ROOT / ".venv" / ("Scripts" if os.name == "nt" else "bin")
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-"""Of all programs here: hundreds of processes begin, each of which would compile all modules to bytecode, a second long."""
+"""Of all programs here: hundreds of processes begin, and each would take a second to compile modules to bytecode."""
 
 
 def install(extras: str = "") -> None:

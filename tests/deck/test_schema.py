@@ -110,6 +110,30 @@ def test_words_are_explained(word, said, capsys):
     assert said in capsys.readouterr().out
 
 
+def test_a_table_is_explained_with_all_of_its_keys(capsys):
+    assert main(["explain", "body"]) == 0
+    heads = [line for line in capsys.readouterr().out.splitlines() if not line.startswith(" ")]
+    assert heads == ["body", "body.name", "body.material", "body.formulation", "body.thickness"]
+
+
+def test_every_key_and_table_has_words():
+    """Whatever an editor completes it also says what it is."""
+    silent, known = set(), meanings()
+
+    def walk(schema, path):
+        for part in (schema, *schema.get("anyOf", ())):
+            for key, inner in part.get("properties", {}).items():
+                name = f"{path}.{key}".lstrip(".")
+                silent.update({name} - known.keys())
+                walk(inner, name)
+            for inner in (part.get("items"), part.get("additionalProperties")):
+                if isinstance(inner, dict):
+                    walk(inner, path)
+
+    walk(deck_schema(), "")
+    assert not silent
+
+
 def test_an_unknown_word_is_told_with_its_neighbour(capsys):
     assert main(["explain", "fricton"]) == 2
     assert capsys.readouterr().err == "signorini: explain: unknown key or code 'fricton'; did you mean 'friction'?\n"

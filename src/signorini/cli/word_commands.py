@@ -24,13 +24,14 @@ def schema(options: argparse.Namespace) -> int:
 
 
 def explain(options: argparse.Namespace) -> int:
-    """Print what a key of decks, a status, an exit code or a number of certificates means."""
+    """Print what a key of decks, all keys of a table, a status, an exit code or a number of certificates means."""
     keys, word = meanings(), options.word
     found = [(key, *keys[key]) for key in keys if word in (key, key.rsplit(".", 1)[-1])]
     found += [(f"status {word}", Outcome(word).advice, "")] if word in set(Outcome) else []
     codes = {str(code): words for code, words in EXIT_CODES.items()}
     found += [(f"exit code {word}", codes[word], "")] if word in codes else []
     found += [(f"certificate, {word}", MEANINGS[word], "")] if word in MEANINGS else []
+    found += [(key, *keys[key]) for key in keys if key.rpartition(".")[0] == word]
     if not found:
         known = [*keys, *{key.rsplit(".", 1)[-1] for key in keys}, *Outcome, *codes, *MEANINGS]
         raise InputError(one_of(word, sorted(known), "key or code").partition(" Known:")[0], where=("explain",))

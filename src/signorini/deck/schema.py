@@ -66,8 +66,34 @@ OWN_WORDS = {
     "solve.accuracy": "relative error that the mesh is refined to; 'estimate': errors are estimated on it as it is",
     "bolt.plane": "body, point and normal: the section is the facets of the body in a plane of nodes",
     "bolt.halves": "two boundaries that face each other: the section is between them",
+    "body.material": "name of a table [material.NAME] of the deck",
+    "profile.file": "a mesh of lines, of any format that mesh takes; the deck's own without it",
+    "profile.boundary": "name of its lines in that mesh",
+    "profile.flip": "turns the side on which the bodies are",
+    "surface.file": "a mesh of faces, of any format that mesh takes, STL too; the deck's own without it",
+    "surface.boundary": "name of its faces in that mesh",
+    "surface.flip": "turns the side on which the bodies are",
+    "fatigue.criterion.name": "the criterion",
+    "material.plastic": "the yield law of a material, elastic without it",
+    "mesh": "where the mesh comes from: a file or a generator; [[mesh]]: several, joined",
+    "material": "[material.NAME]: what bodies are made of",
+    "body": "a body of the mesh and its material",
+    "support": "a boundary, a node set, a rigid body or an obstacle that is held, moves as prescribed, or is driven",
+    "foundation": "springs under a boundary",
+    "load": "forces, pressures, gravity, rotation, temperature",
+    "contact": "two sides that may touch, or one and a rigid obstacle, and the law between them",
+    "obstacle": "a rigid shape that moves, held by supports, pushed by loads, or free",
+    "rigid_body": "a body, or a side, that moves as one",
+    "equation": "a linear equation between displacements",
+    "cyclic_symmetry": "the two sides of a sector of a disc",
+    "bolt": "a section that is tightened, locked or released",
+    "fatigue": "a criterion of fatigue and the body that it judges",
+    "step": "a part of the load history: what the loads go to, and how it is followed",
+    "modes": "natural frequencies of the bodies as the last step leaves them",
+    "solve": "an accuracy that the mesh is refined to",
+    "solver": "limits of the methods; none changes an answer",
 }
-"""What keys mean that are parameters of no class."""
+"""What keys mean that are parameters of no class, and what tables hold."""
 
 
 def deck_schema() -> Schema:
@@ -77,7 +103,10 @@ def deck_schema() -> Schema:
         [Bolt], "bolt", replaced={"plane": _TABLE | _own("bolt", "plane"), "halves": _LIST | _own("bolt", "halves")}
     )
     constants = _table(
-        CRITERIA.values(), "fatigue.criterion", needed=("name",), replaced={"name": {"enum": list(CRITERIA)}}
+        CRITERIA.values(),
+        "fatigue.criterion",
+        needed=("name",),
+        replaced={"name": {"enum": list(CRITERIA)} | _own("fatigue.criterion", "name")},
     )
     criterion = _either([{"enum": list(CRITERIA)}, constants]) | {
         "description": "by name, or a table with its constants"
@@ -87,7 +116,9 @@ def deck_schema() -> Schema:
     own["bolt"], own["fatigue"] = _array(bolt), _array(_table([Fatigue], "fatigue", replaced={"criterion": criterion}))
     own["mesh"] = {"anyOf": [_mesh(), _array(_mesh())]}
     own["material"] = {"type": "object", "additionalProperties": _material()}
-    own["body"] = _array(_table([Body], "body", needed=("name", "material"), replaced={"material": _TEXT}))
+    own["body"] = _array(
+        _table([Body], "body", needed=("name", "material"), replaced={"material": _TEXT | _own("body", "material")})
+    )
     own["contact"] = _array(_contact())
     own["obstacle"] = _array(_table([Rigid], "obstacle", OBSTACLE_KEYS, needed=("name",), replaced=_shapes()))
     asked = _either([_NUMBER, {"const": "estimate"}]) | _own("solve", "accuracy")
@@ -101,7 +132,7 @@ def deck_schema() -> Schema:
         "type": "object",
         "additionalProperties": False,
         "required": ["mesh", "body"],
-        "properties": {key: {**single, **own}[key] for key in KEYS},
+        "properties": {key: {**single, **own}[key] | _own("", key) for key in KEYS},
     }
 
 
@@ -159,7 +190,8 @@ def _table(
 
 
 def _own(path: str, key: str) -> Schema:
-    return {"description": OWN_WORDS[f"{path}.{key}"]} if f"{path}.{key}" in OWN_WORDS else {}
+    words = OWN_WORDS.get(f"{path}.{key}" if path else key)
+    return {"description": words} if words else {}
 
 
 def _key(kind: Callable[..., Any], name: str, parameter: inspect.Parameter) -> Schema:
@@ -246,7 +278,9 @@ def _merged(schemas: list[Schema]) -> Schema:
 
 
 def _material() -> Schema:
-    elastic = _table([Elastic], "material", replaced={"plastic": _table([Plastic], "material.plastic")})
+    elastic = _table(
+        [Elastic], "material", replaced={"plastic": _table([Plastic], "material.plastic") | _own("material", "plastic")}
+    )
     return {"anyOf": [elastic, _table([Orthotropic], "material")]}
 
 
@@ -257,7 +291,10 @@ def _shapes() -> dict[str, Schema]:
         words = (inspect.getdoc(shape) or "").split("\n\n")[0]
         made, kinds = _table([shape], key), [_TEXT] if key == "surface" else []
         if key in FILED:
-            made = made | {"properties": made["properties"] | {name: {} for name in FILED[key]}, "required": []}
+            made = made | {
+                "properties": made["properties"] | {name: _own(key, name) for name in FILED[key]},
+                "required": [],
+            }
         found[key] = _either([made, *kinds]) | {"description": " ".join(words.replace("`", "").split())}
     return found
 
