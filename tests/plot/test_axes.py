@@ -86,8 +86,20 @@ def test_steps_share_one_coordinate():
     )
     data = PictureData(sg.solve(model))
     (light,), (heavy,) = data.curves(1), data.curves(2)
-    assert light.axis == heavy.axis
+    assert light.place == heavy.place
     np.testing.assert_array_equal(light.s, heavy.s)
+
+
+def test_around_an_axis_places_are_radii():
+    model = sg.Model(
+        sg.rectangle(x=[0, 1, 2], y=[0, 1]),
+        kind="axisymmetric",
+        bodies=[BODY],
+        loads=[sg.Load("top", pressure=1.0)],
+        contacts=[sg.Contact("bottom", sg.Plane((0, 0), (0, 1)))],
+    )
+    (curve,) = PictureData(sg.solve(model)).curves()
+    assert curve.place == "r along 'bottom', undeformed, length"
 
 
 def test_friction_in_space_is_along_an_axis_by_its_letter():

@@ -34,7 +34,7 @@ class ContactFilm:
 
     Attributes
     ----------
-    name, axis : of the contact, and what s is
+    name, place : of the contact, and what s is, in words
     friction : see `coefficient`
     s : (k,)
     load : (m,) where in the history; every straight segment of the loads takes 1
@@ -45,7 +45,7 @@ class ContactFilm:
     """
 
     name: str
-    axis: str
+    place: str
     friction: float
     s: Array
     load: Array
@@ -104,7 +104,7 @@ def film_of(history: History, contact: str | None = None) -> ContactFilm:
 
     return ContactFilm(
         name=names[i],
-        axis=axis,
+        place=place_words(axis, names[i], history.model.axes),
         friction=coefficient(history.model.contacts[i]),
         s=s[order],
         load=np.interp(loads, kinks, np.arange(len(kinks))),
@@ -154,7 +154,7 @@ def _scene(film: ContactFilm, title: str) -> tuple[Figure, Callable[[float], lis
     (here,) = forces.plot([], [], "o", color=INK, ms=6)
     forces.set_xlim(film.load[0], film.load[-1])
     dress(tractions, y="pressure and friction, force per area")
-    dress(slips, x=place_words(film.axis, film.name), y="slip, length")
+    dress(slips, x=film.place, y="slip, length")
     dress(forces, x="segment of the loads", y="friction force, force")
     shown = {name: STATUS_COLOURS[name] for name in (STICK, SLIP)}
     patches = [Patch(color=colour, label=name) for name, colour in shown.items()]

@@ -25,8 +25,7 @@ class Curve:
     Attributes
     ----------
     contact : its name
-    axis : what the coordinate is: "x", "y", "arc length" from the end of a surface that leans or bends, or "angle in
-        degrees" about the middle of a closed one
+    place : what the coordinate is, in words, for an axis: see `place_words`
     s : (n,) increasing coordinate
     pressure, traction : (n,) force per area; traction is friction on the nonmortar body along the tangent
     hoop : (n,) friction around the axis where bodies of revolution twist; None elsewhere
@@ -35,7 +34,7 @@ class Curve:
     """
 
     contact: str
-    axis: str
+    place: str
     s: Array
     pressure: Array
     traction: Array
@@ -44,29 +43,25 @@ class Curve:
     friction: float
 
     @property
-    def place(self) -> str:
-        """The coordinate in words, for an axis."""
-        return place_words(self.axis, self.contact)
-
-    @property
     def has_bound(self) -> bool:
         """Whether ``mu p`` is a bound to draw."""
         return 0.0 < self.friction < math.inf
 
 
-def curve_of(law: Contact, contact: ContactResult, touching: BoolArray) -> Curve:
+def curve_of(law: Contact, contact: ContactResult, touching: BoolArray, axes: str) -> Curve:
     """The pairs with an area of one contact of the plane.
 
     Parameters
     ----------
     law, contact : as the model has it, and at the moment
     touching : (n,) pairs that touch at the end of any step, so that all steps are drawn over one coordinate
+    axes : letters of the model's axes
     """
     axis, s = place_along(contact.points[contact.area > 0], touching[contact.area > 0])
     own = np.flatnonzero(contact.area > 0)[np.argsort(s, kind="stable")]
     return Curve(
         contact=contact.name,
-        axis=axis,
+        place=place_words(axis, contact.name, axes),
         s=np.sort(s),
         pressure=contact.pressure[own],
         traction=contact.traction[own, 0] if contact.twists else contact.traction[own],
@@ -102,6 +97,8 @@ def surface_coordinate(points: Array) -> tuple[str, Array]:
 def place_along(points: Array, touching: BoolArray) -> tuple[str, Array]:
     """The coordinate of a picture: that of `surface_coordinate`, but arc length where the touching part leans or bends.
 
+    "x" or "y", "arc length" from the end of a surface, or "angle in degrees" about the middle of a closed one.
+
     Parameters
     ----------
     points : (n, 2) length
@@ -126,10 +123,21 @@ def place_along(points: Array, touching: BoolArray) -> tuple[str, Array]:
     return "arc length", along
 
 
-def place_words(axis: str, contact: str) -> str:
-    """The coordinate along a contact in words, for an axis."""
+def place_words(axis: str, contact: str, axes: str) -> str:
+    """The coordinate along a contact in words, for an axis.
+
+    Parameters
+    ----------
+    axis, contact : the coordinate, see `place_along`, and the name of the contact
+    axes : letters of the model's axes: around an axis x is the radius, r, and y the height, z
+
+    Examples
+    --------
+    >>> place_words("x", "seat", "rz")
+    "r along 'seat', undeformed, length"
+    """
     unit = "" if axis == "angle in degrees" else ", length"
-    return f"{axis} along '{contact}', undeformed{unit}"
+    return f"{axes['xy'.index(axis)] if axis in ('x', 'y') else axis} along '{contact}', undeformed{unit}"
 
 
 def closed_range(curve: Curve) -> tuple[float, float]:

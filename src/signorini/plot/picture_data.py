@@ -183,7 +183,7 @@ class PictureData:
         """Every contact of a plane model after a step, which counts from 1; at the moment where there is no number."""
         contacts = self.contacts if number is None else self.history.steps[number - 1].contacts
         pairs = zip(self.model.contacts, contacts, self._touching, strict=True)
-        return [curve_of(law, contact, touching) for law, contact, touching in pairs]
+        return [curve_of(law, contact, touching, self.model.axes) for law, contact, touching in pairs]
 
     @cached_property
     def _touching(self) -> list[BoolArray]:

@@ -57,10 +57,12 @@ class _Course:
 
     Attributes
     ----------
+    axes : letters of the model's axes
     cycles : (k,) numbers of them; steps that do not repeat are none, where others do
     contacts, worn : the contact, and its wear
     """
 
+    axes: str
     cycles: Array
     contacts: list[ContactResult]
     worn: list[ContactWear]
@@ -84,6 +86,7 @@ def _course(history: History, i: int) -> _Course:
     cycles = sorted(last)
     contacts = [last[number] for number in cycles]
     return _Course(
+        axes=history.model.axes,
         cycles=np.array(cycles, float),
         contacts=contacts,
         worn=[contact.wear for contact in contacts if contact.wear is not None],
@@ -116,7 +119,7 @@ def _profiles(_: Figure, panels: Array, course: _Course) -> None:
     if high > low:
         for panel in panels:
             panel.set_xlim(low - _SHOWN * (high - low), high + _SHOWN * (high - low))
-    place = place_words(axis, contact.name)
+    place = place_words(axis, contact.name, course.axes)
     dress(panels[0], x=place, y="worn depth, length", title=f"depth of '{contact.nonmortar}' and '{contact.mortar}'")
     panels[0].invert_yaxis()
     sides = [Line2D([], [], color=INK, ls="-", label=contact.nonmortar)]
