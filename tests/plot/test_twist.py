@@ -49,4 +49,4 @@ def test_what_runs_away_around_the_axis_is_drawn():
     with pytest.raises(sg.SolveFailed, match="turn about the axis") as caught:
         sg.solve(model)
     figure = caught.value.solution.plot_escape()
-    assert "around the axis" in figure.axes[0].get_title(loc="left")
+    assert "around the axis" in figure.get_suptitle()

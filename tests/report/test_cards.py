@@ -146,3 +146,15 @@ def test_bodies_are_sketched_by_their_outlines():
     assert way.count("L") == 10  # edges around 3 x 2 cells
     box = sg.Model(sg.box(x=[0, 1], y=[0, 1], z=[0, 1]), bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.0))])
     assert re.search(r'd="([^"]*)"', sketch_model(box))[1].count("M") == 24  # both faces at every edge
+
+
+def test_a_rigid_obstacle_is_sketched_where_it_fills_the_drawing():
+    model = sg.Model(
+        sg.rectangle(width=2.0, nx=3, ny=2),
+        bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.0))],
+        contacts=[sg.Contact("bottom", sg.Plane((0, 0), (0, 1)))],
+    )
+    floor, block = re.findall(r'd="([^"]*)"', sketch_model(model, width=224))
+    margin, ground = 0.12, 112.0  # 0.06 of the width of 2 around it; 224 across 2.24
+    assert floor == f"M0.0 {ground + 100 * margin:.1f}L224.0 124.0L224.0 112.0L0.0 112.0Z"
+    assert block.startswith("M12.0 112.0")

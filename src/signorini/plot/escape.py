@@ -14,7 +14,7 @@ from signorini.plot.camera import best_view
 from signorini.plot.oblique import HOOP_WORDS, oblique
 from signorini.plot.paint import body_paint, paint_skin
 from signorini.plot.skin import make_skin
-from signorini.plot.style import INK, PRESSURE, TRACTION, frame, legend_below
+from signorini.plot.style import INK, PRESSURE, TRACTION, entitle, frame, legend_below
 from signorini.solution.history import History
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def plot_escape(history: History) -> Figure:
     around = f"\n{HOOP_WORDS}" if history.model.twists else ""
     names = ", ".join(f"'{name}'" for name in _running(history, np.linalg.norm(motion, axis=1) > 1e-6 * size))
     title = f"no equilibrium: the loads carry {names} away{around}"
-    axes.set_title(title, loc="left", fontsize=11, color=INK)
+    entitle(figure, history.model.title, title)
     plane = history.model.dimension == 2
     looks = (("where they are", PRESSURE if plane else _STAYS), ("where they go", TRACTION if plane else _RUNS))
     arrow = Line2D([], [], color=INK, marker=">", ls="-", label="the motion, whatever its size")

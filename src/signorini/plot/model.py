@@ -22,7 +22,7 @@ from signorini.plot.picture_data import CELL_OUTLINES
 from signorini.plot.skin import make_skin
 from signorini.plot.style import INK, TRACTION, entitle, frame, label, literal
 from signorini.plot.units import units_of
-from signorini.plot.walls import Wall, draw_walls
+from signorini.plot.walls import draw_walls, walls_at_rest
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -115,9 +115,7 @@ def _plane(axes: Axes, model: Model) -> _Stage:
         faces = [BODIES[i % len(BODIES)] for i in body]
         axes.add_collection(PolyCollection(list(points[cells]), facecolors=faces, edgecolors="none"))
     draw_edges(axes, outlines, points, colour="#9d9d9d", alpha=1.0)
-    shapes = [contact.mortar for contact in model.contacts if isinstance(contact.mortar, Obstacle)]
-    shapes += [rigid.shape for rigid in model.obstacles]
-    draw_walls(axes, [Wall(shape, np.zeros(2), np.zeros(2), 0.0) for shape in shapes], moved=False)
+    draw_walls(axes, walls_at_rest(model), moved=False)
     names = ("radius", "height") if model.axisymmetric else ("x", "y")
     label(axes, x=f"{names[0]}, length", y=f"{names[1]}, length")
     axes.tick_params(colors=INK, labelsize=9)

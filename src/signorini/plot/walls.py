@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _POINTS_ACROSS = 400  # a panel: where obstacles are asked for their distance
-_FILL_COLOUR = "#e2e2df"
+FILL_COLOUR = "#e2e2df"
+"""Of what obstacles fill."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +59,40 @@ def walls_of(model: Model, state: State) -> list[Wall]:
     return walls + [Wall(shape, np.zeros(2), np.zeros(2), 0.0) for shape in resting]
 
 
+def walls_at_rest(model: Model) -> list[Wall]:
+    """Obstacles of a plane model before any of them moves; none in space."""
+    if model.dimension == 3:
+        return []
+    shapes = [contact.mortar for contact in model.contacts if isinstance(contact.mortar, Obstacle)]
+    shapes += [rigid.shape for rigid in model.obstacles]
+    return [Wall(shape, np.zeros(2), np.zeros(2), 0.0) for shape in shapes]
+
+
+def filled(wall: Wall, low: Array, high: Array, across: int) -> list[Array]:
+    """Loops (n, 2) around what a wall fills of a rectangle, where it rests.
+
+    Parameters
+    ----------
+    wall : the obstacle
+    low, high : (2,) corners of the rectangle, length
+    across : points an edge at which the obstacle is asked for its distance
+    """
+    from contourpy import contour_generator
+
+    x, y = np.meshgrid(*np.linspace(low, high, across).T)
+    depth = wall.depth(np.column_stack([x.ravel(), y.ravel()]), moved=False).reshape(x.shape)
+    found: Any = contour_generator(x, y, depth, fill_type="OuterOffset").filled(0.0, np.inf)
+    return [_bent(loop[:-1]) for own, at in zip(*found, strict=True) for loop in np.split(own, at[1:-1])]
+
+
+def _bent(loop: Array) -> Array:
+    """The points (n, 2) of a closed loop at which it does not go straight on."""
+    before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
+    turn = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    bent: Array = loop[np.abs(turn) > 1e-9 * np.ptp(loop, axis=0).max() ** 2]
+    return bent
+
+
 def draw_walls(axes: Axes, walls: list[Wall], *, moved: bool) -> None:
     """Fill what walls fill of axes, behind everything else; ``moved``: where they are at the moment."""
     (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
@@ -66,5 +101,5 @@ def draw_walls(axes: Axes, walls: list[Wall], *, moved: bool) -> None:
     for wall in walls:
         depth = wall.depth(points, moved=moved).reshape(x.shape)
         if depth.max() > 0.0 > depth.min():
-            axes.contourf(x, y, depth, levels=[0.0, depth.max()], colors=[_FILL_COLOUR], zorder=0)
+            axes.contourf(x, y, depth, levels=[0.0, depth.max()], colors=[FILL_COLOUR], zorder=0)
             axes.contour(x, y, depth, levels=[0.0], colors=[INK], linewidths=0.8, zorder=0)

@@ -14,23 +14,33 @@ from signorini.plot.camera import best_view
 from signorini.plot.curve import surface_coordinate
 from signorini.plot.skin import make_skin
 from signorini.plot.style import HOOP, PRESSURE, TRACTION
+from signorini.plot.walls import FILL_COLOUR, filled, walls_at_rest
 from signorini.report.markup import said
 from signorini.solution.results import ContactResult
 
 _FILLS = ("#7aa6d6", "#e0b071", "#86bd86", "#c791b6", "#a9a9a4")
 _MOST_HEIGHT = 0.9  # of a drawing, over its width
+_WALL_MARGIN = 0.06  # of the size of the bodies: how much of obstacles is shown around them
 _MOST_POINTS = 300  # of a loop: more cannot be told apart in a small drawing
 _MOST_EDGES = 1500  # of bodies in space: the longest ones
 
 
 def sketch_model(model: Model, width: int = 260) -> str:
-    """The bodies, each in a colour, seen from above one corner where they are solid."""
+    """The bodies, each in a colour, seen from above one corner where they are solid; obstacles of the plane in grey."""
     shapes = _areas(model) if model.dimension == 2 else _creases(model)
     points = np.concatenate([loop for _, loops in shapes for loop in loops])
     low, high = points.min(axis=0), points.max(axis=0)
+    walls = walls_at_rest(model)
+    if walls:
+        low, high = low - _WALL_MARGIN * (high - low).max(), high + _WALL_MARGIN * (high - low).max()
     size = np.maximum(high - low, 1e-3 * np.ptp(points, axis=0).max())
     scale = width / max(size[0], size[1] / _MOST_HEIGHT)
     drawn = []
+    for wall in walls:
+        ways = "".join(
+            _way((loop - low) * scale, size[1] * scale, closed=True) for loop in filled(wall, low, high, width)
+        )
+        drawn.append(f'<path d="{ways}" fill="{FILL_COLOUR}" fill-rule="evenodd"><title>rigid obstacle</title></path>')
     for (name, loops), colour in zip(shapes, cycle(_FILLS), strict=False):
         ways = "".join(_way((loop - low) * scale, size[1] * scale, closed=model.dimension == 2) for loop in loops)
         look = f'fill="{colour}" fill-opacity=".55"' if model.dimension == 2 else 'fill="none"'
