@@ -1,6 +1,8 @@
 """Bodies that all ranks factorise by MUMPS: whatever needs the condensed interface has the answers of one process."""
 
+import gc
 import json
+import weakref
 
 import numpy as np
 import pytest
@@ -70,6 +72,29 @@ def test_factors_are_those_of_one_process(name):
         one, two = here.reduce(f), there.reduce(f)
         same(two.load, one.load)
         same(two.expand(kept), one.expand(kept))
+
+
+def nothing(_team):
+    """What ranks are asked for, to have them drop what nobody has any more."""
+
+
+@with_petsc
+def test_the_condensed_interface_stays_where_mumps_has_left_it():
+    """MPI would copy it three times and does not take more than 2 GB; it is there as long as somebody has it."""
+    from signorini.distributed.ranks import the_team
+
+    factors = prepare(cubes(2), backend="mumps").solver.condensed.factorisation
+    S, team = factors.schur(), the_team()
+    assert S is team.held[max(team.held)].made.condensed
+    assert not S.flags.owndata
+    expected = S.copy()
+    held = weakref.ref(team.held[max(team.held)])
+    del factors
+    gc.collect()
+    team.everywhere(nothing)
+    assert held() is None
+    np.testing.assert_array_equal(S, expected)
+    np.testing.assert_array_equal(S, S.T)
 
 
 @with_petsc

@@ -26,7 +26,7 @@ from signorini.distributed.ranks import Team
 from signorini.distributed.room import Room, room_for
 
 _OPTIONS = {
-    "mat_mumps_icntl_7": 5,  # the order of elimination is METIS's
+    "mat_mumps_icntl_7": 5,  # the order of elimination is METIS's, or minimum degree where MUMPS has no METIS
     "mat_mumps_icntl_14": 40,  # per cent of memory beyond what MUMPS expects, which borders and many ranks exceed
     "mat_mumps_cntl_1": 0.0,  # no pivoting: the interior is positive definite, or it is refused
 }
@@ -34,6 +34,7 @@ _ONLY_INSIDE = 26, 0  # ICNTL: solves leave out the unknowns of the Schur comple
 _STATUS, _DETAIL, _NEGATIVE = 1, 2, 12  # numbers in INFOG: how it ended, what more is said of it, pivots below 0
 _MEGABYTES = 15  # number in INFO: what a rank will take, which is known before anything is factorised
 _DENSE = 6.0  # matrices of the size of the interface that the first rank holds at once, as one process does
+_TILE = 256  # rows and columns that are mirrored at once
 _INFORMATION = 64  # numbers that have room for what PETSc says to a factorisation, of which MUMPS hears nothing
 
 
@@ -118,17 +119,16 @@ class OwnFactors:
         self._x, self._b = A.createVecs()
 
     def _condensed(self, count: int) -> Array:
-        """(k, k) The Schur complement, of which MUMPS fills the lower triangle, by columns."""
+        """(k, k) The Schur complement where MUMPS has left it, in the lower triangle, by columns; nothing is copied."""
         if not count:
             return np.zeros((0, 0))
         found, status = ctypes.c_void_p(), ctypes.c_int()
         _petsc("MatFactorGetSchurComplement", self._matrix, ctypes.byref(found), ctypes.byref(status))
         entries = ctypes.c_void_p()
         _petsc("MatDenseGetArray", found, ctypes.byref(entries))
-        held = np.ctypeslib.as_array(ctypes.cast(entries, ctypes.POINTER(ctypes.c_double)), (count, count))
-        S = held.copy()
-        for i in range(count):
-            S[i + 1 :, i] = S[i, i + 1 :]
+        S = np.asarray(_Entries(self._matrix, entries.value, count))
+        _mirror(S)
+        S.flags.writeable = False
         _petsc("MatDenseRestoreArray", found, ctypes.byref(entries))
         _petsc("MatFactorRestoreSchurComplement", self._matrix, ctypes.byref(found), status)
         return S
@@ -141,6 +141,29 @@ class OwnFactors:
             self._matrix.solve(self._b, self._x)
             result[:, k] = self._x.array[: self._own]
         return result
+
+
+class _Entries:
+    """Numbers in the memory of a matrix of PETSc's, as NumPy asks for them: it lives as long as somebody has them.
+
+    Parameters
+    ----------
+    matrix : of PETSc
+    address, count : where they are, and of how many rows and columns
+    """
+
+    def __init__(self, matrix: Any, address: int | None, count: int) -> None:
+        self._matrix = matrix
+        self.__array_interface__ = {"data": (address, False), "shape": (count, count), "typestr": "<f8", "version": 3}
+
+
+def _mirror(S: Array) -> None:
+    """Overwrite the lower triangle by the upper one."""
+    for first in range(0, len(S), _TILE):
+        behind = first + _TILE
+        S[behind:, first:behind] = S[first:behind, behind:].T
+        block = S[first:behind, first:behind]
+        block[:] = np.triu(block) + np.triu(block, 1).T
 
 
 def _with_border(team: Team, bodies: OwnBodies, asked: AskedOfFactors) -> Any:

@@ -135,13 +135,18 @@ class Team:
         self.comm.bcast((None, (self.code,), False, ()))
 
     def _done(self, work: Callable[..., Any], own: tuple[Any, ...], given: tuple[Any, ...], dropped: Any) -> Any:
-        """What all ranks return, on the first one; where one fails all end, because the others would wait for ever."""
+        """What all ranks return, on the first one; where one fails all end, because the others would wait for ever.
+
+        What the first one returns may be as large as its interface, and is not sent: MPI would copy it.
+        """
         try:
             for number in dropped:
                 self.held.pop(number, None)
             if dropped:
                 _garbage_cleanup()
-            return self.comm.gather(work(self, *own, *given))
+            result = work(self, *own, *given)
+            found = self.comm.gather(None if self.first else result)
+            return found and [result, *found[1:]]
         except Exception as error:
             if self.size == 1:
                 raise
