@@ -5,7 +5,7 @@ Two cubes whose meshes do not match are solved on 2 and 4 ranks, and what ``-log
 iteration of conjugate gradients, and of a change of the springs of the pairs. How far a share reaches into those of
 others is counted in a cut into 64. Needs petsc4py, mpi4py and mpiexec.
 
-usage: python -m benchmarks.ranks_on_paper [--small] [--dry]
+usage: python -m benchmarks.ranks_on_paper [--small] [--room] [--dry]
 """
 
 from __future__ import annotations
@@ -203,20 +203,25 @@ def assumptions(beside: int, deep: float) -> str:
     return words.lstrip() + "\n"
 
 
-def rooms(found: dict[str, Any]) -> list[list[object]]:
-    """GB of the first rank and of the others, from the last two lines of the table of memory on the page."""
-    begin, end = page.markers("memory of ranks")
+def last_lines(name: str, number: int) -> list[list[str]]:
+    """Cells of the last lines of a table on the page."""
+    begin, end = page.markers(name)
     written = PAGE.read_text(encoding="utf-8").partition(begin)[2].partition(end)[0]
-    lines = [[cell.strip() for cell in line.strip("| ").split("|")] for line in written.strip().splitlines()[-2:]]
+    return [[cell.strip() for cell in line.strip("| ").split("|")] for line in written.strip().splitlines()[-number:]]
+
+
+def rooms() -> list[list[object]]:
+    """GB of the first rank and of the others, from the last lines of the tables of memory and counts on the page."""
+    lines, (counts,) = last_lines("memory of ranks", 2), last_lines("counts of ranks", 1)
     (few, many), columns = (int(line[1]) for line in lines), [[cell.split(", ") for cell in line[2:]] for line in lines]
-    kept = found["held"] * found["ranks"] / found["unknowns"]
+    kept = 1e3 * float(counts[COUNTS.index("kB an unknown in PETSc")])
     rows: list[list[object]] = []
     for nodes, ranks in (*ROOMS, *((unknowns / 3, ranks) for unknowns, ranks in PAPER)):
         cells = []
         for one, other in zip(*columns, strict=True):
             slope = max(float(one[0]) - float(other[0]), 0.0) / (1 / few - 1 / many)
             first = max(float(other[0]) - slope / many, 0.0) + slope / ranks
-            cells += [held * 1e3 * nodes / 1e9 for held in (first, float(other[1]) * many / ranks)]
+            cells += [held * 1e3 * nodes / 1e9 for held in (first, float(one[1]) * few / ranks)]
         shown = [f"{first:.3g}, {others:.2g}" for first, others in zip(cells[::2], cells[1::2], strict=True)]
         rows.append([f"{nodes:.2g}", ranks, *shown, f"{kept * 3 * nodes / ranks / 1e9:.2g}"])
     return rows
@@ -250,12 +255,16 @@ def count_row(found: dict[str, Any]) -> list[object]:
 def main() -> None:
     parser = command.parser(__doc__, dry=True)
     parser.add_argument("--small", action="store_true", help="sizes that take seconds")
+    parser.add_argument("--room", action="store_true", help="memory alone, from the tables on the page")
     parser.add_argument("--one", nargs=2, type=int, metavar="N", help="count cubes of so many cells on these ranks")
     options = parser.parse_args()
     if options.one:
         with sg.ranks() as first:
             if first:
                 print(json.dumps(measured(*options.one)))
+        return
+    if options.room:
+        command.publish(options, "room on paper", page.table(ROOM, rooms()), PAGE)
         return
     sizes = ((5, 4), (8, 7)) if options.small else ((10, 9), (14, 12), (18, 16))
     found = [on_ranks(ranks, size, module="benchmarks.ranks_on_paper") for size in sizes for ranks in (2, 4)]
@@ -267,7 +276,7 @@ def main() -> None:
         numbers = on_paper(unknowns, ranks, found[1], found[-1], beside, deep)
         rows.append([f"{unknowns:.0e}", ranks, *(f"{number:.3g}" for number in numbers)])
     command.publish(options, "ranks on paper", words + page.table(TIMES, rows), PAGE)
-    command.publish(options, "room on paper", page.table(ROOM, rooms(found[-1])), PAGE)
+    command.publish(options, "room on paper", page.table(ROOM, rooms()), PAGE)
 
 
 if __name__ == "__main__":

@@ -50,7 +50,7 @@ def owners(space: Space, B: sp.csr_array, ranks: int) -> IntArray:
     together = _pattern(seen.indices // space.components, seen.indptr, count)
     graph = sp.csr_array(graph + together.T @ together)
     entries = np.diff(graph.indptr)
-    graph.setdiag(0)
+    graph.setdiag(False)
     graph.eliminate_zeros()
     neighbours = pymetis.CSRAdjacency(graph.indptr, graph.indices)
     own = pymetis.part_graph(ranks, neighbours, vweights=entries.tolist())[1]
@@ -103,5 +103,5 @@ def _place_among_own(group: IntArray) -> IntArray:
 
 
 def _pattern(columns: IntArray, indptr: IntArray, width: int) -> sp.csr_array:
-    """Where rows have entries, ones; columns may stand in them more than once."""
-    return sp.csr_array((np.ones(len(columns)), columns, indptr), shape=(len(indptr) - 1, width))
+    """Where rows have entries; columns may stand in them more than once."""
+    return sp.csr_array((np.ones(len(columns), dtype=np.bool_), columns, indptr), shape=(len(indptr) - 1, width))

@@ -94,15 +94,20 @@ def _padded(team: Team, K: sp.csr_array, rows: RowsOfBodies) -> sp.csr_array:
     """Rows of the free displacements, those that supports hold in a block as unknowns that nothing moves."""
     reduced = reduced_stiffness(K, rows.transform)
     own = np.flatnonzero((rows.place >= rows.first) & (rows.place < rows.last))
-    mine = sp.csr_array(reduced[own])
-    at = rows.place[own] - rows.first
     total, number = team.total(np.array([reduced.diagonal()[own].sum(), len(own)])).tolist()
-    across = np.setdiff1d(np.arange(rows.last - rows.first), at)
-    entries = mine.tocoo()
-    i = np.concatenate([at[entries.row], across])
-    j = np.concatenate([rows.place[entries.col], rows.first + across])
-    values = np.concatenate([entries.data, np.full(len(across), total / number)])
-    return sp.csr_array((values, (i, j)), shape=(rows.last - rows.first, rows.size))
+    own = own[np.argsort(rows.place[own])]
+    mine = sp.csr_array(reduced[own])
+    del reduced  # as large as the rows that are made of it
+    columns = rows.place.astype(mine.indices.dtype)[mine.indices]
+    count = np.ones(rows.last - rows.first, dtype=np.int64)
+    at = rows.place[own] - rows.first
+    count[at] = np.diff(mine.indptr)
+    indptr = np.concatenate([[0], np.cumsum(count)])
+    across = np.setdiff1d(np.arange(len(count)), at)
+    before = indptr[across] - np.arange(len(across))  # entries of the rows above, one of each that is put between
+    data = np.insert(mine.data, before, total / number) if len(across) else mine.data
+    columns = np.insert(columns, before, rows.first + across) if len(across) else columns
+    return sp.csr_array((data, columns, indptr), shape=(len(count), rows.size))
 
 
 class OwnPairs:

@@ -77,7 +77,11 @@ class Piece(PartOfBodies):
         """The stiffness of the piece, by the kernel that assembles whole meshes."""
         model = self.model()
         K = stiffness(make_space(model.mesh, kind=self.kind), model)
-        return OwnStiffness(K=sp.csr_array(K + self.springs), own=np.repeat(self.own, model.components))
+        if self.springs.nnz:
+            K = sp.csr_array(K + self.springs)
+        else:
+            K.eliminate_zeros()  # as the sum does, which takes the memory of two
+        return OwnStiffness(K=K, own=np.repeat(self.own, model.components))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

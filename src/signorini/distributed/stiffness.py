@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, Int32Array, IntArray
 from signorini.distributed.partition import owners
 from signorini.distributed.pieces import Piece, pieces, whole_nodes
 from signorini.distributed.ranks import Team
@@ -25,7 +26,6 @@ class StiffnessOnRanks:
     team : the ranks
     number : under which they hold their pieces
     owner : (n,) rank that owns each node of the mesh
-    dofs : of every rank those of its piece, in their order there
     shape : of the matrix
     nnz : entries, those of all ranks together
 
@@ -51,18 +51,24 @@ class StiffnessOnRanks:
         constraints : what supports hold, and what moves together
         """
         self._whole = self._asked(constraints)
-        self.dofs: list[IntArray] = []
-        self._own: list[IntArray] = []
+        self._nodes: list[Int32Array] = []
+        self._own: list[BoolArray] = []
         found = self.team.everywhere(_hold_piece, self.number, pieces=self._pieces(constraints))
         self.nnz = sum(found)
 
     def _pieces(self, constraints: Constraints) -> Any:
-        d = self._d
         for piece in pieces(self._space, self._model, constraints, self.owner, self._whole):
-            dofs = (d * piece.nodes[:, None] + np.arange(d)).ravel()
-            self.dofs.append(dofs)
-            self._own.append(dofs[np.repeat(piece.own, d)])
+            self._nodes.append(piece.nodes.astype(np.int32))
+            self._own.append(piece.own)
             yield piece
+
+    @property
+    def dofs(self) -> Iterator[IntArray]:
+        """Of every rank those of its piece, in their order there; made when they are asked for, they are not kept."""
+        return (self._dofs(nodes) for nodes in self._nodes)
+
+    def _dofs(self, nodes: Int32Array) -> IntArray:
+        return (self._d * nodes.astype(np.int64)[:, None] + np.arange(self._d)).ravel()
 
     def serves(self, constraints: Constraints) -> bool:
         """Whether the pieces are large enough for other constraints."""
@@ -94,8 +100,8 @@ class StiffnessOnRanks:
         """(dofs,) Forces of displacements u, (dofs,), see `OwnStiffness.forces`."""
         result = np.zeros(self.shape[0])
         found = self.team.everywhere(_forces, self.number, how, pieces=(u[dofs] for dofs in self.dofs))
-        for own, forces in zip(self._own, found, strict=True):
-            result[own] = forces
+        for nodes, own, forces in zip(self._nodes, self._own, found, strict=True):
+            result[self._dofs(nodes[own])] = forces
         return result
 
 

@@ -85,6 +85,7 @@ def solver_on_ranks(
     settings : limits of the rounds
     """
     rows = _rows(examined, K)
+    examined.space.forget_facets()
     B, points = sp.csr_array(examined.interface.B @ examined.constraints.transform), examined.space.mesh.points
     bodies = make_bodies_on_ranks(rows, points, B, examined.interface, candidates)
     return MultiplierSolver(bodies=bodies, settings=settings)
