@@ -21,7 +21,7 @@ from signorini.engine import prepare as preparing
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.gallery.press_fit import press_fit
 from signorini.output.dataclasses_json import to_plain
-from signorini.study.problem import GivenModel
+from signorini.study.problem import DeckFile, GivenModel, Study
 from tests.distributed.test_on_ranks import on_ranks, with_ranks
 from tests.helpers.block_deck import block_deck
 
@@ -391,6 +391,44 @@ def test_a_sweep_that_is_killed_goes_on_to_the_same_table(deck, tmp_path):
     assert swept(deck, *keys, "-o", whole) == 0
     assert table(there) == table(whole)
     assert ended(children.split())
+
+
+class SilentRank:
+    """The communicator of two ranks of which the other one never answers."""
+
+    size = 2
+
+    def __init__(self):
+        self.sent = []
+
+    def send(self, message, dest):
+        self.sent.append((message, dest))
+
+    def iprobe(self, source):
+        assert source == 1
+        return False
+
+    def Abort(self, code):
+        self.sent.append(("abort", code))
+
+
+@pytest.mark.slow
+def test_the_first_rank_has_a_row_solved_beside_it(deck):
+    """Rows go to as many places as there are ranks, and its own does not wait for the others'."""
+    from signorini.study.lanes import RankLanes
+
+    study = Study.of(DeckFile(path=deck), {"friction.floor": (0.4, 0.5)}, "auto", None)
+    comm = SilentRank()
+    lanes = RankLanes(comm, study)
+    assert lanes.count == 2
+    try:
+        for lane, friction in enumerate((0.4, 0.5)):
+            lanes.begin(lane, 7 + lane, {"friction.floor": friction})
+        lane, number, row = lanes.finished()
+    finally:
+        lanes.close()
+    assert (lane, number, row.status) == (0, 7, "solved")
+    assert comm.sent[:2] == [((8, {"friction.floor": 0.5}), 1), ("abort", 1)]
 
 
 @with_ranks

@@ -59,7 +59,7 @@ def _first(options: argparse.Namespace, comm: Any) -> int:
     lanes = None
     if comm is not None:
         comm.bcast(study)
-        lanes = RankLanes(comm)
+        lanes = RankLanes(comm, study)
     code = FAILED
     try:
         # one rank or process compiles for all

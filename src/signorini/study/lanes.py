@@ -121,6 +121,10 @@ class ProcessLanes:
             words = "a process that solved rows has ended, killed or out of memory; expected fewer (--processes)"
             raise SignoriniError(words) from error
 
+    def ready(self) -> bool:
+        """Whether a row is finished."""
+        return any(future.done() for future in self._running)
+
     def close(self) -> None:
         """Stop the processes, also in the middle of rows."""
         self._line.close()
@@ -161,39 +165,52 @@ def _row(values: dict[str, Value]) -> StudyRow:
 
 
 class RankLanes:
-    """Ranks of MPI but the first, which hands out rows and writes; the others call `serve`.
+    """Ranks of MPI; the first, which hands out rows and writes, has a process beside it, and the others call `serve`.
 
     Parameters
     ----------
     comm : communicator of all ranks, at least two
+    study : whose rows
     """
 
-    def __init__(self, comm: Any) -> None:
+    def __init__(self, comm: Any, study: Study) -> None:
         self._comm = comm
-        self.count = int(comm.size) - 1
+        self.count = int(comm.size)
+        self._beside = ProcessLanes(study, 1, 1)  # if the first rank solved a row, others would wait until it is done
         self._busy: set[int] = set()
 
     def begin(self, lane: int, number: int, values: Mapping[str, Value]) -> None:
-        """Send a row to a rank: ``lane``, ``number`` and ``values`` as of `Lanes`."""
-        self._comm.send((number, dict(values)), dest=lane + 1)
+        """Send a row to a rank, or the process: ``lane``, ``number`` and ``values`` as of `Lanes`."""
+        if lane == 0:
+            self._beside.begin(lane, number, values)
+            return
+        self._comm.send((number, dict(values)), dest=lane)
         self._busy.add(lane)
 
     def finished(self) -> tuple[int, int, StudyRow]:
-        """Wait for a row."""
-        while True:
+        """Wait for a row.
+
+        Raises
+        ------
+        SignoriniError
+            If the process was ended from outside.
+        """
+        while not self._beside.ready():
             for lane in sorted(self._busy):
-                if self._comm.iprobe(source=lane + 1):
-                    number, row = self._comm.recv(source=lane + 1)
+                if self._comm.iprobe(source=lane):
+                    number, row = self._comm.recv(source=lane)
                     self._busy.discard(lane)
                     return lane, number, row
             time.sleep(_PERIOD)
+        return self._beside.finished()
 
     def close(self) -> None:
         """Let the ranks go; where some are at work, end all."""
         if self._busy:
             self._comm.Abort(1)
-        for lane in range(self.count):
-            self._comm.send(None, dest=lane + 1)
+        self._beside.close()
+        for lane in range(1, self.count):
+            self._comm.send(None, dest=lane)
 
 
 def serve(comm: Any, study: Study) -> None:
