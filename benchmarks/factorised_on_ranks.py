@@ -29,8 +29,9 @@ from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
 MODULE = "benchmarks.factorised_on_ranks"
-SIZES = ((31, (1, 2)), (54, (1, 2)), (64, (1,)))  # cells along an edge, on how many ranks: what 16 GB have room for
-SMALL = ((12, (1, 2)),)
+SIZES = (31, 54)  # cells along an edge
+SMALL = (12,)
+RANKS = (1, 2)
 LAYERS, THICKNESS = 3, 0.25  # of cells in a plate; of the sides of the plates
 KEPT = "SIGNORINI_PLATES"  # environment variable: the file in which the answer of one process is
 PHASES = ("factorisation", "condensation", "complementarity")
@@ -138,10 +139,10 @@ def main() -> None:
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         os.environ[KEPT] = str(Path(folder, "answer.npz"))
-        for cells, numbers in SMALL if options.small else SIZES:
+        for cells in SMALL if options.small else SIZES:
             (alone,) = page.measured(MODULE, cells, "--backend", "multifrontal", keep=False)
             rows.append(row("in one process", alone))
-            for ranks in numbers:
+            for ranks in RANKS:
                 rows.append(row(str(ranks), on_ranks(ranks, (cells,), "--backend", MUMPS, module=MODULE)))
     command.publish(options, "factorised on ranks", page.table(HEAD, rows), PAGE)
 
