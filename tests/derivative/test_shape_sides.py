@@ -62,3 +62,90 @@ def test_a_motion_along_sides_that_end_flush_has_two_sides():
     assert low < 0.0 < high
     with pytest.raises(sg.InputError, match="moves flush ends: the derivative has two sides"):
         derivative.shape(along)
+
+
+def on_blocks(model):
+    """A rig with a pad that is flat, all along a block, and held along its top in every direction."""
+    flat = model.mesh.points[model.mesh.nodes_of("block.top"), -1][0]
+    points = model.mesh.points.copy()
+    points[model.mesh.nodes_of("pad.bottom"), -1] = flat
+    (down, *others) = model.supports
+    held = replace(down, u=(*(0.0,) * (model.dimension - 1), down.u[-1]))
+    return replace(model, mesh=replace(model.mesh, points=points), supports=[held, *others])
+
+
+def on_polygon():
+    """The same in space, with a polygon in place of the cone and an exact path."""
+    model = on_blocks(ball_rig())
+    step = sg.Step(scale={"down": 1.0, "pull": 0.5}, path="exact")
+    return replace(model, contacts=[replace(model.contacts[0], facets=8)], steps=[step])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "make", [lambda: on_blocks(rig()), lambda: on_blocks(rig(kind="axisymmetric", friction=0.1)), on_polygon]
+)
+def test_sides_that_touch_all_along_before_anything_is_loaded_have_two_derivatives(make):
+    """They press at once where they are bent one way, and close one pair after another where the other way."""
+    model = make()
+    derivative, bent = sg.solve(model, tape=True).derivative(PEAK), np.zeros_like(model.mesh.points)
+    own = model.mesh.nodes_of("pad.bottom")
+    x = model.mesh.points[own, 0] - model.mesh.points[own, 0].mean()
+    bent[own, -1] = np.sin(1.3 * x) + 0.5 * x**2
+    low, high = derivative.shape_sides(bent)
+    assert (low, high) == pytest.approx(one_sided(model, bent, derivative.value), rel=1e-6)
+    assert abs(high - low) > 0.002 * abs(low)
+    with pytest.raises(sg.InputError, match=r"touches without a force where the history begins: .* two sides, "):
+        derivative.shape(bent)
+    with pytest.raises(sg.InputError, match="derivatives node by node have two sides"):
+        assert derivative.gap["joint"].any()
+    with pytest.raises(sg.InputError, match=r"by 'interference.joint' has two sides there; sides\("):
+        derivative.by("interference.joint")
+    below, above = derivative.sides("interference.joint")
+
+    def peak(overlap):
+        other = replace(model, contacts=[replace(model.contacts[0], interference=overlap)])
+        return sg.solve(other, tape=True).derivative(PEAK).value
+
+    differences = [(peak(step) - derivative.value) / step for step in (-1e-4, 1e-4)]
+    assert (below, above) == pytest.approx(differences, rel=1e-6)
+    assert 0.0 in (derivative.holds("interference.joint").low, derivative.holds("interference.joint").high)
+
+
+def test_touching_before_anything_is_loaded_has_one_derivative_where_nothing_remembers_it():
+    """Without friction; and where a load carries a pad on one node to the block, wherever that is."""
+    smooth = on_blocks(rig(friction=0.0))
+    derivative = sg.solve(smooth, tape=True).derivative(PEAK)
+    below, above = derivative.sides("interference.joint")
+    assert below == above == derivative.by("interference.joint")
+
+    pad = sg.rectangle(nx=6, ny=2, width=2.0, origin=(-1.0, 1.0))
+    x, y = pad.points.T
+    pad = replace(pad, points=np.column_stack([x, y + 0.02 * x**2 * (2.0 - y)]))
+    block = sg.rectangle(nx=6, ny=2, width=2.0, origin=(-1.0, 0.0))
+    carried = replace(
+        rig(),
+        mesh=sg.join({"pad": pad, "block": block}),
+        supports=[sg.Support("block.bottom", u=(0.0, 0.0))],
+        loads=[
+            sg.Load("pad.top", pressure=20.0, name="weight"),
+            sg.Load("pad.left", traction=(6.0, 0.0), name="pull"),
+        ],
+        contacts=[sg.Contact("pad.bottom", "block.top", friction=0.35, name="joint", coupling="nodes")],
+        steps=[sg.Step(scale={"weight": 1.0}, path="exact"), sg.Step(scale={"pull": 0.3}, path="exact")],
+    )
+    derivative = sg.solve(carried, tape=True).derivative(sg.traction("joint")[3])
+    assert derivative.sides("interference.joint") == pytest.approx((0.0, 0.0), abs=1e-9 * abs(derivative.value))
+    assert derivative.gap["joint"].sum() == pytest.approx(0.0, abs=1e-9 * np.abs(derivative.gap["joint"]).max())
+
+
+def test_a_pad_that_slides_freely_along_the_side_that_it_touches_is_refused():
+    """Bent the smallest bit the block would have it slide until it touches elsewhere: that is a jump."""
+    model = on_blocks(rig(steps=PRESS))
+    model = replace(model, supports=[replace(model.supports[0], u=(None, -0.02)), *model.supports[1:]])
+    derivative, bent = sg.solve(model, tape=True).derivative(PEAK), np.zeros_like(model.mesh.points)
+    top = model.mesh.nodes_of("block.top")
+    x = model.mesh.points[top, 0]
+    bent[top, 1] = np.sin(1.3 * x) + 0.5 * x**2
+    with pytest.raises(sg.InputError, match=r"what the history does is not known where their gaps are other ones"):
+        derivative.shape(bent)

@@ -103,12 +103,14 @@ class Adjoint:
     ----------
     stacks : of the points that matter, one a system
     bounds : by system
+    remembered : (d - 1, n) per length, with tangential motions that are remembered before the first point
     pulled : (z,) by number of the point, of outputs of bodies: free displacements where what the output changes with
         pulls on them
     """
 
     stacks: tuple[TermStack, ...]
     bounds: dict[InterfaceSystem, BoundTerm]
+    remembered: Array
     pulled: dict[int, Array] = field(default_factory=dict)
 
     @cached_property

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +14,7 @@ from numpy.typing import ArrayLike
 from signorini.arrays import Array
 from signorini.derivative.adjoint import adjoint_of
 from signorini.derivative.body_changes import BodyChange
+from signorini.derivative.by_name import ByName
 from signorini.derivative.changes import ChangeWithLocks, LoadChange, LockChange
 from signorini.derivative.edge_probe import EdgeProbe
 from signorini.derivative.functionals import value
@@ -22,11 +22,12 @@ from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.modulus_pairs import ModulusPairs
 from signorini.derivative.node_gradient import node_gradient
 from signorini.derivative.one_sided import beyond
-from signorini.derivative.parameters import change_of, names_of
+from signorini.derivative.parameters import change_of, names_of, split
 from signorini.derivative.points import TapePoint, tape_points
 from signorini.derivative.recursion import Change, PointChange, changed, forward
 from signorini.derivative.refusals import refuse_tape
 from signorini.derivative.shape_sides import ShapeSides
+from signorini.derivative.touching_start import GapRate, TouchingStart
 from signorini.derivative.validity import PathEdge, edges, validity
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
@@ -37,34 +38,6 @@ from signorini.model.outputs import Displacement, Dissipation, Output, Stress, W
 from signorini.solution.sensitivities import Validity
 
 _TWO_SIDES = 1e-6  # of a derivative: what those to both sides may differ by and still be the same up to differences
-
-
-class ByName(Mapping[str, Any]):
-    """Numbers by name, each found when it is asked for.
-
-    Parameters
-    ----------
-    names : what there is
-    find : the number of a name
-    """
-
-    def __init__(self, names: Sequence[str], find: Callable[[str], Any]) -> None:
-        self._names, self._find = list(names), find
-        self._found: dict[str, Any] = {}
-
-    def __getitem__(self, name: str) -> Any:
-        if name not in self._found:
-            self._found[name] = self._find(name)
-        return self._found[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._names)
-
-    def __len__(self) -> int:
-        return len(self._names)
-
-    def __repr__(self) -> str:
-        return repr(dict(self))
 
 
 class TapedHistory:
@@ -89,6 +62,7 @@ class TapedHistory:
         self._forward: dict[tuple[str, str], list[PointChange]] = {}
         self._locked: dict[str, Derivative] = {}
         self._seen = ModulusPairs(self.prepared)
+        self.start = TouchingStart(legs=self.legs, points=self.view.points)
 
     @property
     def prepared(self) -> Prepared:
@@ -136,7 +110,8 @@ class TapedHistory:
 
     def holds(self, kind: str, name: str) -> Validity:
         """In which changes of a parameter the sequence of events stays."""
-        return validity(self.view, self.forward(kind, name))
+        at_start = self.start.edges(self.view, GapRate.of(self.change(kind, name)))
+        return validity(self.view, self.forward(kind, name), at_start)
 
 
 class Derivative:
@@ -234,15 +209,18 @@ class Derivative:
         view, change = self._history.view, self._history.change(kind, name)
         last = view.number(self.output.load_factor)
         found = [edge for edge in self._history.edges(kind, name) if edge.point <= last]
+        low = high = self
+        if found:
+            at_end = len(found) == 1 and found[0].point == last
+            other = beyond(view, found[0].condition, self._history.legs, last) if at_end else None
+            if other is None:
+                raise InputError(f"{found[0].words}: what '{parameter}' does on the other side is not known")
+            across = Derivative(self._history.on(other), replace(self.output, load_factor=None))
+            low, high = (across, self) if found[0].change > 0.0 else (self, across)
+        gap = GapRate.of(change)
         own = self.along(change)
-        if not found:
-            return own, own
-        at_end = len(found) == 1 and found[0].point == last
-        other = beyond(view, found[0].condition, self._history.legs, last) if at_end else None
-        if other is None:
-            raise InputError(f"{found[0].words}: what '{parameter}' does on the other side is not known")
-        across = Derivative(self._history.on(other), replace(self.output, load_factor=None)).along(change)
-        return (across, own) if found[0].change > 0.0 else (own, across)
+        below, above = (own if one is self else one.along(change) for one in (low, high))
+        return below + low.through_start(gap, -1.0), above + high.through_start(gap, 1.0)
 
     def holds(self, parameter: str) -> Validity:
         """In which changes of a parameter, ``kind.name``, the sequence of events stays; to first order."""
@@ -258,16 +236,14 @@ class Derivative:
         InputError
             Where the motion has another shape, moves nothing, or the output has another derivative to each side of it.
         """
-        sides = self._moved(motion)
+        sides = ShapeSides.of(self._history.prepared, motion)
         low, high = self._to_sides(sides)
-        if abs(high - low) > _TWO_SIDES * (abs(high) + abs(low)):
-            view, pair = self._history.view, int(sides.kinked[0])
-            node = view.model.mesh.labels[view.interface.node[pair]]
-            name = view.model.contacts[view.interface.contact[pair]].label
-            words = f"changes node {node} of '{name}' otherwise forwards than backwards, as where it bends a straight "
-            words += f"side or moves flush ends: the derivative has two sides, {low:.6g} and {high:.6g}"
-            raise InputError(f"{words}; shape_sides(motion) gives both", where=("motion",))
-        return self.along(sides.change)
+        if _apart(low, high):
+            words = f"the derivative has two sides, {low:.6g} and {high:.6g}; shape_sides(motion) gives both"
+            view, gap = self._history.view, GapRate.of(sides.change)
+            why = sides.kink(view) if len(sides.kinked) else self._history.start.edges(view, gap)[0].words
+            raise InputError(f"{why}: {words}", where=("motion",))
+        return self._upwards(sides.change) if len(sides.kinked) else high
 
     def shape_sides(self, motion: ArrayLike) -> tuple[float, float]:
         """The derivatives by a motion of the nodes, (nodes, d), backwards and forwards along it; mostly the same.
@@ -279,24 +255,37 @@ class Derivative:
         InputError
             Where the motion has another shape, or moves nothing.
         """
-        return self._to_sides(self._moved(motion))
-
-    def _moved(self, motion: ArrayLike) -> ShapeSides:
-        """A motion of the nodes, checked."""
-        model = self._history.prepared.model
-        moved = np.asarray(motion, dtype=np.float64)
-        if moved.shape != model.mesh.points.shape or not moved.any():
-            words = f"has shape {moved.shape}; expected {model.mesh.points.shape}, a motion of some node"
-            raise InputError(words, where=("motion",))
-        return ShapeSides(prepared=self._history.prepared, motion=moved)
+        return self._to_sides(ShapeSides.of(self._history.prepared, motion))
 
     def _to_sides(self, sides: ShapeSides) -> tuple[float, float]:
         """The derivatives backwards and forwards along a motion."""
-        if not len(sides.kinked):
-            own = self.along(sides.change)
-            return own, own
-        low, high = (sum(weight * self.along(part) for weight, part in sides.towards(way)) for way in (-1.0, 1.0))
-        return low, high
+        if len(sides.kinked):
+            ways = [list(sides.towards(way)) for way in (-1.0, 1.0)]
+            low, high = (sum(weight * self.along(part) for weight, part in parts) for parts in ways)
+            gaps = [GapRate.sum([(weight, GapRate.of(part)) for weight, part in parts]) for parts in ways]
+        else:
+            low = high = self.along(sides.change)
+            gaps = [GapRate.of(sides.change)] * 2
+        return low + self.through_start(gaps[0], -1.0), high + self.through_start(gaps[1], 1.0)
+
+    def through_start(self, gap: GapRate, way: float) -> float:
+        """What changes of gaps do besides where pairs touch without a force as the history begins, to one side.
+
+        Parameters
+        ----------
+        gap : the change, per unit
+        way : 1 upwards, -1 downwards
+
+        Raises
+        ------
+        InputError
+            Where that is not known.
+        """
+        start, remembered = self._history.start, self._adjoint.remembered
+        found = sum(share * shortening.through_start(gap, way) for share, shortening in self._locks)
+        if remembered.any() and start.moved(gap).any():
+            found += way * float(np.vdot(remembered, start.memory(gap.times(way))))
+        return found
 
     @cached_property
     def nodes(self) -> Array:
@@ -309,7 +298,9 @@ class Derivative:
         InputError
             Where motions of single nodes do not add up: those of a straight side opposite another meshed one.
         """
-        return node_gradient(self._history.view, self._adjoint, self.output)
+        found = node_gradient(self._history.view, self._adjoint, self.output)
+        self._history.start.refuse_by_nodes(self._history.view, self._adjoint.remembered, "nodes")
+        return found
 
     def _all(self, kind: str) -> ByName:
         return ByName(names_of(self._history.prepared, kind), lambda name: self._by(kind, name))
@@ -327,7 +318,16 @@ class Derivative:
         if on_the_way:
             words = f"{on_the_way[0].words}: the derivative by '{kind}.{name}' has two sides there"
             raise InputError(f"{words}; sides('{kind}.{name}') gives both where that is known")
-        return self.along(self._history.change(kind, name))
+        change = self._history.change(kind, name)
+        found, gap = self._upwards(change), GapRate.of(change)
+        if _apart(found - self.through_start(gap, 1.0) + self.through_start(gap, -1.0), found):
+            words = f"{self._history.start.edges(self._history.view, gap)[0].words}: the derivative by '{kind}.{name}'"
+            raise InputError(f"{words} has two sides there; sides('{kind}.{name}') gives both")
+        return found
+
+    def _upwards(self, change: Change) -> float:
+        """The derivative by a change to its upper side."""
+        return self.along(change) + self.through_start(GapRate.of(change), 1.0)
 
     def along(self, change: Change) -> float:
         """What a change changes of the output, also by the shortenings at which bolts lock."""
@@ -349,8 +349,15 @@ class Derivative:
         return found
 
     def _gap(self, contact: str) -> Array:
-        """(n,) The derivative by the gaps of a contact, node by node."""
+        """(n,) The derivative by the gaps of a contact, node by node.
+
+        Raises
+        ------
+        InputError
+            Where that has two sides.
+        """
         view, found = self._history.view, np.zeros(len(self._history.view.interface))
+        self._history.start.refuse_by_nodes(view, self._adjoint.remembered, "gap")
         for stack in self._adjoint.stacks:
             found[stack.system.active] += stack.motion[:, 0].sum(axis=0)
         through_locks = (share * shortening.gap[contact] for share, shortening in self._locks)
@@ -377,13 +384,6 @@ class Derivative:
         return (value(self.output, high) - value(self.output, low)) / (2.0 * change.step)
 
 
-def split(parameter: str) -> tuple[str, str]:
-    """Kind and name of a parameter.
-
-    >>> split("friction.foundation")
-    ('friction', 'foundation')
-    """
-    kind, dot, name = parameter.partition(".")
-    if not dot:
-        raise InputError(f"is '{parameter}'; expected kind.name, 'friction.contact' or 'E.body'", where=("parameter",))
-    return kind, name
+def _apart(low: float, high: float) -> bool:
+    """Whether derivatives to both sides are not the same up to differences."""
+    return abs(high - low) > _TWO_SIDES * (abs(high) + abs(low))

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array
-from signorini.derivative.derivative import Derivative, TapedHistory, split
+from signorini.derivative.derivative import Derivative, TapedHistory
 from signorini.derivative.functionals import value
 from signorini.derivative.modulus_pairs import with_material
-from signorini.derivative.parameters import given_value, names_of
+from signorini.derivative.parameters import given_value, names_of, split
 from signorini.derivative.step_friction import coefficients
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.solve import solve_prepared

@@ -127,3 +127,15 @@ def _friction(prepared: Prepared, kind: str, name: str) -> FrictionChange:
     if kind == "friction" and not np.isfinite(law.coefficient):
         raise InputError(f"contact '{name}' sticks whatever its friction")
     return FrictionChange(parameter=kind, contact=number)
+
+
+def split(parameter: str) -> tuple[str, str]:
+    """Kind and name of a parameter.
+
+    >>> split("friction.foundation")
+    ('friction', 'foundation')
+    """
+    kind, dot, name = parameter.partition(".")
+    if not dot:
+        raise InputError(f"is '{parameter}'; expected kind.name, 'friction.contact' or 'E.body'", where=("parameter",))
+    return kind, name

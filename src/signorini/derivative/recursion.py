@@ -163,7 +163,8 @@ def backward(
         with points[i].determined():
             i -= back.to(i)
     stacks = tuple(one.stack(direct) for one in back.passed.values() if one.numbers)
-    return Adjoint(stacks=stacks, bounds={system: one.bound for system, one in back.passed.items()})
+    bounds = {system: one.bound for system, one in back.passed.items()}
+    return Adjoint(stacks=stacks, bounds=bounds, remembered=back.remembered)
 
 
 def changed(points: Sequence[TapePoint], adjoint: Adjoint, change: Change) -> float:
@@ -203,6 +204,11 @@ class _Back:
         self._turned: Array | None = None
         self._place = {point: k for k, point in enumerate(with_trials(points))}
         self.passed: dict[InterfaceSystem, PassedPoints] = {}
+
+    @property
+    def remembered(self) -> Array:
+        """(d - 1, all pairs) How the output changes, per length, with what is remembered before the points passed."""
+        return _of_all(self._memory, self._system, self._points[0].system)
 
     def to(self, i: int) -> int:
         """Pass point i, and some before it; how many that were."""
@@ -309,10 +315,15 @@ def _handed(memory: Array | None, before: InterfaceSystem | None, system: Interf
     memory, before : the same of another system, which follows; None where nothing does
     system : the system
     """
+    return np.asarray(_of_all(memory, before, system)[:, system.active] / system.root)
+
+
+def _of_all(memory: Array | None, before: InterfaceSystem | None, system: InterfaceSystem) -> Array:
+    """(d - 1, all pairs) The same of all pairs, per length; parameters as of `_handed`."""
     whole = np.zeros((system.directions - 1, len(system.condensed.active)))
     if memory is not None and before is not None:
         whole[:, before.active] = before.root * memory
-    return np.asarray(whole[:, system.active] / system.root)
+    return whole
 
 
 def _on_branches(bound: BoundTerm, branch: IntArray, p: Array) -> Array:

@@ -13,11 +13,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray, extent
 from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.body_side import BodySide, moved_side
+from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
+from signorini.errors import InputError
 
 _PART = 1e-6  # of the size of the model: how far nodes move at most for differences
 _EVEN = 1e-7  # of what a motion changes: a part that is even in it and smaller is rounding
@@ -36,6 +39,21 @@ class ShapeSides:
 
     prepared: Prepared
     motion: Array
+
+    @classmethod
+    def of(cls, prepared: Prepared, motion: ArrayLike) -> ShapeSides:
+        """Of a motion, (nodes, d).
+
+        Raises
+        ------
+        InputError
+            Where it has another shape, or moves nothing.
+        """
+        moved, points = np.asarray(motion, dtype=np.float64), prepared.model.mesh.points
+        if moved.shape != points.shape or not moved.any():
+            words = f"has shape {moved.shape}; expected {points.shape}, a motion of some node"
+            raise InputError(words, where=("motion",))
+        return cls(prepared=prepared, motion=moved)
 
     @cached_property
     def change(self) -> BodyChange:
@@ -63,6 +81,14 @@ class ShapeSides:
         bend = (np.abs(upwards - (high - low) / 2.0) / most).max(axis=0)
         order = np.argsort(-bend, kind="stable")
         return np.asarray(order[bend[order] > _KINK])
+
+    def kink(self, view: HistoryView) -> str:
+        """What it does to the pair that it changes most otherwise to one side than to the other, in words."""
+        pair = int(self.kinked[0])
+        node = view.model.mesh.labels[view.interface.node[pair]]
+        name = view.model.contacts[view.interface.contact[pair]].label
+        words = f"changes node {node} of '{name}' otherwise forwards than backwards, as where it bends a straight"
+        return f"{words} side or moves flush ends"
 
     def _numbers(self, part: float) -> Array:
         """(2 + d, n) Gaps, areas and normals of pairs, in parts of the model and of the largest area."""

@@ -18,16 +18,17 @@ _SHARED_EVENT = 1e-7  # of the largest move of an event: by how much events that
 _ZERO = 1e-10  # of the data of the law: a condition that no parameter can be near to
 
 
-def validity(view: HistoryView, changes: Sequence[PointChange]) -> Validity:
+def validity(view: HistoryView, changes: Sequence[PointChange], at_start: Sequence[PathEdge]) -> Validity:
     """The interval of a parameter, from what it changes at every point.
 
     Parameters
     ----------
     view : the history
     changes : what the parameter changes at every point
+    at_start : edges of the history's beginning
     """
     low, high, ends = -np.inf, np.inf, ["", ""]
-    for edge in edges(view, changes):
+    for edge in [*at_start, *edges(view, changes)]:
         which = 0 if edge.change > 0.0 else 1
         ends[which] = edge.words
         low, high = (0.0, high) if which == 0 else (low, 0.0)
@@ -47,7 +48,7 @@ class PathEdge:
 
     Attributes
     ----------
-    point : its number
+    point : its number, -1 where the history begins
     condition : number of the condition in its piece
     change : what a parameter changes of it there, per unit: on one side of the parameter the pair goes on as it is
     words : what happens, and where

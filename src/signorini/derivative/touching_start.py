@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pairs that touch without a force where a history begins: the smallest change of their gaps has two sides there.
+
+Where they overlap a little they press at once; where they are a little apart they close one after another, under loads
+that grow with the change. Either way they stick at other tangential motions, in proportion to the change, and from then
+on that is all that is left of it, next to what the same pieces make of the gaps. The law is linear in its pieces, so
+that a path with gaps that are changed by a small part tells those motions to rounding, on the bodies as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import chain, dropwhile, islice
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, BoolArray, extent
+from signorini.derivative.body_changes import BodyChange
+from signorini.derivative.changes import GapChange
+from signorini.derivative.interface_system import PairStates
+from signorini.derivative.moduli import ModulusChange
+from signorini.derivative.points import TapePoint
+from signorini.derivative.recursion import Change
+from signorini.derivative.space_conditions import states_of_piece
+from signorini.derivative.validity import PathEdge
+from signorini.derivative.view import HistoryView
+from signorini.engine.floating_bodies import approached, resting
+from signorini.engine.path_states import path_state
+from signorini.engine.step_parts import Interval, StepPart
+from signorini.engine.tape import Leg
+from signorini.errors import InputError, SolveFailed
+from signorini.friction.history import Segment
+
+_ZERO = 1e-10  # of the data of the law: a gap, or a force, that is none
+_PARTS = (1e-2, 1e-3, 1e-4)  # of how far half a piece goes: larger than what a path takes two events together in
+_UNTIL = 0.5  # of the first piece: where motions are compared
+_SAME_WAY = 1e-6  # of a unit vector, and of friction over its bound: edges and corners of polygons that are one
+_SAME_MOTION = 1e-6  # of the largest, or of the change: motions that are in proportion to it
+_SAME_SIDES = 1e-6  # of motions as long as changes of gaps: what may be left of both ways together
+_SAME_PLACE = 1e-14  # of the size of the model: what gaps differ by between places that are the same
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GapRate:
+    """What a parameter changes of the gaps that pairs have before anything moves.
+
+    Attributes
+    ----------
+    gap : (n,) length per unit; None where nothing changes
+    rounding : length per unit that is as good as nothing
+    B : what it changes of that of `Interface`, per unit; None where that is nothing
+    """
+
+    gap: Array | None = None
+    rounding: float = 0.0
+    B: sp.csr_array | None = None
+
+    @classmethod
+    def of(cls, change: Change) -> GapRate:
+        """Of a change."""
+        if isinstance(change, GapChange):
+            return cls(gap=change.gap)
+        if isinstance(change, BodyChange | ModulusChange) and change.tilts and change.pairs is not None:
+            size = float(extent(change.prepared.model.mesh.points).max())
+            return cls(gap=change.pairs.gap, rounding=_SAME_PLACE * size / change.step, B=change.pairs.B)
+        return cls()
+
+    @classmethod
+    def sum(cls, parts: Sequence[tuple[float, GapRate]]) -> GapRate:
+        """Of several, each with its weight."""
+        known = [(weight, part, part.gap) for weight, part in parts if part.gap is not None]
+        if not known:
+            return cls()
+        tilts = [weight * part.B for weight, part, _ in known if part.B is not None]
+        return cls(
+            gap=np.sum([weight * gap for weight, _, gap in known], axis=0),
+            rounding=sum(abs(weight) * part.rounding for weight, part, _ in known),
+            B=sp.csr_array(sum(tilts[1:], tilts[0])) if tilts else None,
+        )
+
+    def times(self, factor: float) -> GapRate:
+        """Of a parameter that is counted in other units."""
+        return GapRate.sum([(factor, self)])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class TouchingStart:
+    """Where a history begins.
+
+    Attributes
+    ----------
+    legs, points : straight parts of the history, and its points
+    """
+
+    legs: Sequence[Leg]
+    points: Sequence[TapePoint]
+    _known: dict[bytes, Array] = field(default_factory=dict, init=False)
+
+    @cached_property
+    def pairs(self) -> BoolArray:
+        """(n,) Those that touch without a force before anything is loaded, in a history that is followed to events."""
+        leg, system = self.legs[0], self.points[0].system
+        found = np.zeros(len(system.condensed.active), dtype=np.bool_)
+        if leg.start is not None and not leg.before.displacement.any() and not leg.before.forces.any():
+            none = _ZERO * (system.law.scale or 1.0)
+            found[system.active] = (np.abs(leg.start.h[0]) <= none) & (np.abs(leg.start.r).max(axis=0) <= none)
+        return found & system.prepared.interface.friction.rubs
+
+    def moved(self, rate: GapRate) -> BoolArray:
+        """(n,) Which of the pairs a change of gaps moves."""
+        if rate.gap is None:
+            return np.zeros(0, dtype=np.bool_)
+        return np.asarray(self.pairs & (np.abs(rate.gap) > rate.rounding), dtype=np.bool_)
+
+    def edges(self, view: HistoryView, rate: GapRate) -> list[PathEdge]:
+        """The pairs that a change of gaps opens on one side, that which it moves most first."""
+        found = np.flatnonzero(self.moved(rate))
+        if rate.gap is None or not len(found):
+            return []
+        order = np.argsort(-np.abs(rate.gap[found]), kind="stable")
+        edges = []
+        for pair in found[order]:
+            node, contact = view.model.mesh.labels[view.interface.node[pair]], view.interface.contact[pair]
+            words = f"node {node} of '{view.model.contacts[contact].label}' touches without a force where the history"
+            edges.append(
+                PathEdge(point=-1, condition=int(pair), change=-float(rate.gap[pair]), words=f"{words} begins")
+            )
+        return edges
+
+    def refuse_by_nodes(self, view: HistoryView, remembered: Array, what: str) -> None:
+        """Refuse derivatives node by node of which pairs that touch make two sides.
+
+        Parameters
+        ----------
+        view : the history
+        remembered : (d - 1, n) how the output changes with tangential motions before it
+        what : is asked for
+
+        Raises
+        ------
+        InputError
+            Where random changes of gaps do something else than their opposites do.
+        """
+        if not (remembered.any() and self.pairs.any()):
+            return
+        if abs(float(np.vdot(remembered, self._apart))) > _SAME_SIDES * float(np.abs(remembered).sum()):
+            words = self.edges(view, GapRate(gap=np.where(self.pairs, 1.0, 0.0)))[0].words
+            words += ": derivatives node by node have two sides; shape_sides(motion) and sides(parameter)"
+            raise InputError(f"{words} give both, of what is varied together", where=(what,))
+
+    @cached_property
+    def _apart(self) -> Array:
+        """(d - 1, n) What random changes of gaps, as long as 1, and their opposites leave of motions together."""
+        gap = np.where(self.pairs, np.random.default_rng(0).uniform(-1.0, 1.0, len(self.pairs)), 0.0)
+        return self.memory(GapRate(gap=gap)) + self.memory(GapRate(gap=-gap))
+
+    def memory(self, rate: GapRate) -> Array:
+        """(d - 1, n) How far tangential motions are other ones where pairs stick, length per unit of a change of gaps.
+
+        Raises
+        ------
+        InputError
+            Where the path with other gaps is not known.
+        """
+        assert rate.gap is not None
+        if rate.B is not None:
+            return self._memory(rate)
+        key = rate.gap.tobytes()
+        if key not in self._known:
+            self._known[key] = self._memory(rate)
+        return self._known[key]
+
+    def _memory(self, rate: GapRate) -> Array:
+        """See `memory`."""
+        assert rate.gap is not None
+        first, leg = self.points[0], self.legs[0]
+        system = first.system
+        assert leg.start is not None
+        assert leg.segment is not None
+        cones = system.directions == 3 and bool((system.law.law.rubs & (system.law.section.sides == 0)).any())
+        if not (cones or leg.start.r.any() or first.quiet or first.passes):
+            gap = np.where(np.abs(rate.gap) > rate.rounding, rate.gap, 0.0)
+            way = _UNTIL * first.part * (leg.segment.end.b - leg.start.b)
+            size = float(np.abs(way).max()) / float(np.abs(system.root * gap[system.active]).max())
+            found = (self._per_share(part * size, replace(rate, gap=gap), way) for part in _PARTS)
+            large, small = islice(chain(dropwhile(lambda moved: moved is None, found), (None, None)), 2)
+            # where a body is carried by a length, however small the change, motions are in no proportion to it
+            if large is not None and small is not None and _in_proportion(large, small, gap):
+                return large
+        raise InputError(
+            "pairs touch without a force where the history begins: what the history does is not known where their gaps "
+            "are other ones"
+        )
+
+    def _per_share(self, share: float, rate: GapRate, way: Array) -> Array | None:
+        """(d - 1, n) The same from a share of a change; None where pairs do not come to the states of the first piece.
+
+        Parameters
+        ----------
+        share, rate : of the change, and the change
+        way : (d a,) what the load grows by until motions are compared, scaled
+        """
+        first, system, start = self.points[0], self.points[0].system, self.legs[0].start
+        segment = self._followed(share, rate, way)
+        if segment is None or start is None or not self._same(segment, first):
+            return None
+        h = start.h + _UNTIL * (first.h - start.h)
+        found = np.zeros((system.directions - 1, len(system.condensed.active)))
+        found[:, system.active] = (segment.end.h - h)[1:] / (share * system.root)
+        return found
+
+    def _followed(self, share: float, rate: GapRate, way: Array) -> Segment | None:
+        """The path with a share of a change; None where there is none. Bodies that nothing holds are carried first."""
+        leg, prepared, gap = self.legs[0], self.legs[0].prepared, share * np.asarray(rate.gap)
+        before = replace(
+            leg.before, gap=leg.before.gap + gap, point=replace(leg.before.point, gap=leg.before.point.gap + gap)
+        )
+        interface = prepared.interface
+        if rate.B is not None and prepared.floating.shape[1]:
+            interface = replace(interface, B=sp.csr_array(interface.B + share * rate.B))
+        part = StepPart(
+            prepared=replace(prepared, interface=interface),
+            where=leg.where,
+            interval=Interval(number=1, low=0.0, high=1.0, ends="segment"),
+            before=before,
+            end=replace(leg.end, gap=leg.end.gap + gap),
+        )
+        try:
+            if resting(part) is not part:
+                return None
+            carried = approached(part, relieving=True)
+            start = path_state(prepared, before if carried is None else carried.after)
+            found = prepared.paths.follow(start, start.b + way, None, lambda _: None)
+        except (SolveFailed, InputError):
+            return None
+        return found if found.followed else None
+
+    def _same(self, segment: Segment, first: TapePoint) -> bool:
+        """Whether pairs end in the states of the first piece."""
+        system, (before, last) = first.system, segment.pieces[-2:]
+        assert last.state is not None
+        if first.states.codes is not None:
+            return np.array_equal(last.state.state, first.states.codes)
+        found = states_of_piece(system.law, last.state.state, (before.h, before.r), (last.h, last.r))
+        return _alike(found, first.states)
+
+
+def _in_proportion(one: Array, two: Array, gap: Array) -> bool:
+    """Whether motions per share of a change of gaps (n,) are the same."""
+    size = max(float(np.abs(one).max()), float(np.abs(gap).max()))
+    return float(np.abs(one - two).max()) <= _SAME_MOTION * size
+
+
+def _alike(one: PairStates, two: PairStates) -> bool:
+    """Whether states of pairs in space are the same."""
+    assert one.tangent is not None
+    assert two.tangent is not None
+    corner = two.tangent.left == 0  # along an edge friction differs
+    ways = [one.tangent.tau - two.tangent.tau, (one.unit - two.unit)[:, corner]]
+    return (
+        all(np.array_equal(getattr(one, name), getattr(two, name)) for name in ("held", "branch"))
+        and all(np.array_equal(getattr(one.tangent, name), getattr(two.tangent, name)) for name in ("closed", "left"))
+        and max(float(np.abs(way).max(initial=0.0)) for way in ways) <= _SAME_WAY
+    )
