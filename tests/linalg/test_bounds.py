@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from numpy.lib.stride_tricks import as_strided
 
-from signorini.linalg import _blas, _front_products, _front_solves, _fronts, factorise
+from signorini.linalg import _blas, _front_products, _front_ranks, _front_solves, _fronts, factorise
 from tests.helpers.lattices import lattice, together
 
 PROBLEMS = {
@@ -84,7 +84,8 @@ def watched(monkeypatch):
         return told
 
     monkeypatch.setattr(_front_products, "STRIP", 5)
-    for module in (_fronts, _front_solves, _front_products):
+    monkeypatch.setattr(_front_products, "LEAST_ROWS", 7)
+    for module in (_fronts, _front_solves, _front_ranks, _front_products):
         monkeypatch.setattr(module, "np", found)
         for name, loop in list(vars(module).items()):
             if name in vars(Watched):

@@ -7,6 +7,7 @@ from scipy import sparse
 
 from signorini.errors import InputError
 from signorini.linalg import registry
+from signorini.linalg._front_ranks import LEAST_ROWS
 from tests.helpers.lattices import lattice
 
 SIDES = {"row": (23, 1), "grid": (24, 17)}
@@ -46,3 +47,18 @@ def test_entries_where_the_factor_has_none_are_refused():
     assert p.K[first, last] == 0.0
     with pytest.raises(InputError, match="the pattern has an entry where the factor has none; expected those of the"):
         factorisation.products(np.eye(len(p.interface)), sparse.csr_array(p.K + apart))
+
+
+def test_products_far_from_the_interface_are_those_of_a_few_combinations():
+    """Of a plate that is pulled at its upper edge all displacements far below are smooth; every entry is right."""
+    p = lattice((60, 80))
+    factorisation = registry.factorise(p.K, p.interface, nodes=p.nodes, points=p.points, backend="multifrontal")
+    assert (factorisation.plan.fronts.below >= LEAST_ROWS).sum() > 8
+    m = len(p.interface)
+    E = factorisation.reduce(np.zeros((p.K.shape[0], m))).expand(np.eye(m))
+    M = np.random.default_rng(3).standard_normal((m, m))
+    entries = sparse.coo_array(p.K)
+    wanted = np.einsum("pm,pm->p", (E @ (M + M.T))[entries.row], E[entries.col])
+    found = sparse.csr_array((factorisation.products(M + M.T, p.K), p.K.indices, p.K.indptr), shape=p.K.shape)
+    both = sparse.csr_array(0.5 * (found + found.T))
+    assert both.toarray()[entries.row, entries.col] == pytest.approx(wanted, rel=0, abs=1e-12 * np.abs(wanted).max())

@@ -21,6 +21,7 @@ from signorini.derivative.body_side import BodySide, moved_side
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError
+from signorini.interface.interface import Interface
 
 _PART = 1e-6  # of the size of the model: how far nodes move at most for differences
 _EVEN = 1e-7  # of what a motion changes: a part that is even in it and smaller is rounding
@@ -73,11 +74,13 @@ class ShapeSides:
     @cached_property
     def kinked(self) -> IntArray:
         """Numbers of the pairs that it changes otherwise to one side than to the other, the most first."""
-        middle, high, low = (self._numbers(part) for part in (0.0, 1.0, -1.0))
+        high, low = (self._numbers(self._side(part).interface) for part in (1.0, -1.0))
         most = np.maximum(np.abs(high - low).max(axis=1, initial=0.0) / 2.0, _PART)[:, None]
-        if (np.abs(high + low - 2.0 * middle) <= _EVEN * most).all():
+        if (np.abs(high + low - 2.0 * self._numbers(self.prepared.interface)) <= _EVEN * most).all():
             return np.zeros(0, dtype=np.int64)
-        upwards = 4.0 * self._numbers(0.5) - 3.0 * middle - high
+        # gaps of the model as it is prepared may be other ones than those of its mesh
+        middle, half = (self._numbers(self._side(part).interface) for part in (0.0, 0.5))
+        upwards = 4.0 * half - 3.0 * middle - high
         bend = (np.abs(upwards - (high - low) / 2.0) / most).max(axis=0)
         order = np.argsort(-bend, kind="stable")
         return np.asarray(order[bend[order] > _KINK])
@@ -90,9 +93,8 @@ class ShapeSides:
         words = f"changes node {node} of '{name}' otherwise forwards than backwards, as where it bends a straight"
         return f"{words} side or moves flush ends"
 
-    def _numbers(self, part: float) -> Array:
+    def _numbers(self, found: Interface) -> Array:
         """(2 + d, n) Gaps, areas and normals of pairs, in parts of the model and of the largest area."""
-        found = self._side(part).interface
         size, area = float(extent(self.prepared.model.mesh.points).max()), self.prepared.interface.area
         return np.stack([found.gap / size, found.area / float(area.max(initial=0.0) or 1.0), *found.normals.T])
 

@@ -8,7 +8,8 @@ parent's, follow
 
     P_kr = -L_kk^-T L_rk^T P_rr,    P_kk = -P_kr L_rk L_kk^-1
 
-as many operations as two factorisations take, however many displacements M is a sum over.
+as many operations as two factorisations take, however many displacements M is a sum over; far from the interface,
+where few combinations are left, no more than substituting those back (see `_front_ranks`).
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import numpy as np
 from signorini.arrays import Array, Int32Array
 from signorini.compilation import kernel, part
 from signorini.linalg._blas import AS_STORED, FIRST_TRANSPOSED, Scratch, StoredMatrix, gemm, trsm
+from signorini.linalg._front_ranks import LEAST_ROWS, PROBES, combinations, eliminate, fill, gather, take
 from signorini.linalg._fronts import list_below, sizes
 from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.plan import Fronts
@@ -36,7 +38,7 @@ def deepest(fronts: Fronts) -> int:
     need, most = np.zeros(len(fronts.parent), np.int64), 0
     for t in range(len(fronts.parent) - 1, -1, -1):
         _, k, r = sizes(fronts, t)
-        need[t] = (k + r) ** 2 + (need[fronts.parent[t]] if fronts.parent[t] >= 0 else 0)
+        need[t] = (k + r) * max(k + r, PROBES) + (need[fronts.parent[t]] if fronts.parent[t] >= 0 else 0)
         most = max(most, need[t])
     return most
 
@@ -59,29 +61,47 @@ def products(fronts: Fronts, factor: Array, M: Array, pattern: Rows, elimination
     room = np.empty(deepest(fronts))
     path, begin = np.empty(len(fronts.parent) + 1, np.int64), np.zeros(len(fronts.parent) + 2, np.int64)
     local, below, height = np.empty(n, np.int32), np.empty(n, np.int32), 0
+    ranks, core = np.zeros(len(fronts.parent) + 2, np.int64), np.zeros((PROBES, PROBES))  # rank 0: all products
+    widest = max(0, fronts.below.max()) if len(fronts.below) else 0
+    probes = np.empty((PROBES, widest if widest >= LEAST_ROWS else 0))
+    work = np.empty((2, *probes.shape))
+    fill(probes)
     for t in range(len(fronts.parent) - 1, -1, -1):
         a, k, r = sizes(fronts, t)
         while height > 0 and path[height - 1] != fronts.parent[t]:
             height -= 1
         path[height], size = t, k + r
-        begin[height + 1] = begin[height] + size * size
+        begin[height + 1] = begin[height] + size * max(size, PROBES)
         P = room[begin[height] : begin[height + 1]]
         list_below(fronts, t, below)
+        rank = 0
         if fronts.parent[t] < 0:
             for u in range(len(M)):
                 local[inside + u] = u
             _gather(M.ravel(), len(M), local, below[:r], P, k)
         else:
             _number(fronts, fronts.parent[t], local)
-            above = room[begin[height - 1] : begin[height]]
-            _gather(above, int(np.sqrt(len(above))), local, below[:r], P, k)
+            above, rank = room[begin[height - 1] : begin[height]], ranks[height]
+            if rank > 0:
+                gather(above, rank, local, below[:r], P, k)
+            else:
+                _, k_above, r_above = sizes(fronts, fronts.parent[t])
+                _gather(above, k_above + r_above, local, below[:r], P, k)
         height += 1
-        if r > 0:
-            _eliminate(k, r, factor.ctypes.data + 8 * fronts.panel[t], P.ctypes.data, s)
-        else:
+        panel = factor.ctypes.data + 8 * fronts.panel[t]
+        if rank == 0 and r >= LEAST_ROWS:
+            rest = StoredMatrix(P.ctypes.data + 8 * k * (size + 1), size)
+            rank = combinations(r, rest, probes, work, core, s)
+            take(work, rank, k, r, P)
+        ranks[height] = rank
+        if r == 0:
             P[:] = 0.0
+        elif rank > 0:
+            eliminate(k, r, rank, panel, P.ctypes.data, s)
+        else:
+            _eliminate(k, r, panel, P.ctypes.data, s)
         _number(fronts, t, local)
-        if not _write(pattern, elimination, (a, k), local, below[:r], P):
+        if not _write(pattern, elimination, (a, k), local, below[:r], P, core[:rank]):
             return False
     _write_interface(pattern, elimination, inside, M)
     return True
@@ -134,24 +154,41 @@ def _eliminate(k: int, r: int, panel: int, P: int, s: Scratch) -> None:
 
 @part()
 def _write(
-    pattern: Rows, elimination: Elimination, own: tuple[int, int], local: Int32Array, below: Int32Array, P: Array
+    pattern: Rows,
+    elimination: Elimination,
+    own: tuple[int, int],
+    local: Int32Array,
+    below: Int32Array,
+    P: Array,
+    core: Array,
 ) -> bool:
     """Write entries of the rows of unknowns that a front eliminates, with all that go later; False if one is outside.
 
-    ``own`` is the first unknown that it eliminates, and how many.
+    ``own`` is the first unknown that it eliminates, and how many; ``core`` is of combinations, empty of products.
     """
     (indptr, indices, data), (order, place), (a, k) = pattern, elimination, own
-    size = k + len(below)
+    size, rank = k + len(below), len(core)
+    known = np.empty(rank)
     for j in range(k):
+        for c in range(rank):
+            known[c] = 0.0
+            for e in range(rank):
+                known[c] += core[c, e] * P[j * rank + e]
         for p in range(indptr[order[a + j]], indptr[order[a + j] + 1]):
             i = place[indices[p]]
-            if i == a + j:
-                data[p] = P[j * size + j]
-            elif i > a + j:
-                at = local[i]
-                if i >= a + k and (at < k or at >= size or below[at - k] != i):
-                    return False
-                data[p] = 2.0 * P[max(at, j) * size + min(at, j)]
+            if i < a + j:
+                continue
+            at = local[i]
+            if i >= a + k and (at < k or at >= size or below[at - k] != i):
+                return False
+            share = 1.0 if i == a + j else 2.0
+            if rank > 0:
+                value = 0.0
+                for c in range(rank):
+                    value += known[c] * P[at * rank + c]
+                data[p] = share * value
+            else:
+                data[p] = share * P[max(at, j) * size + min(at, j)]
     return True
 
 
