@@ -74,16 +74,27 @@ class ShapeSides:
     @cached_property
     def kinked(self) -> IntArray:
         """Numbers of the pairs that it changes otherwise to one side than to the other, the most first."""
-        high, low = (self._numbers(self._side(part).interface) for part in (1.0, -1.0))
+        middle, high, low = (self._numbers(side) for side in (self.prepared.interface, *self._beside))
         most = np.maximum(np.abs(high - low).max(axis=1, initial=0.0) / 2.0, _PART)[:, None]
-        if (np.abs(high + low - 2.0 * self._numbers(self.prepared.interface)) <= _EVEN * most).all():
+        if (np.abs(high + low - 2.0 * middle) <= _EVEN * most).all():
             return np.zeros(0, dtype=np.int64)
-        # gaps of the model as it is prepared may be other ones than those of its mesh
-        middle, half = (self._numbers(self._side(part).interface) for part in (0.0, 0.5))
-        upwards = 4.0 * half - 3.0 * middle - high
-        bend = (np.abs(upwards - (high - low) / 2.0) / most).max(axis=0)
-        order = np.argsort(-bend, kind="stable")
-        return np.asarray(order[bend[order] > _KINK])
+        half = self._numbers(self._side(0.5).interface)
+        bend = self._bend(middle, half, high, low) / most
+        if bend.max() > _KINK:  # gaps of the model as it is prepared may be other ones than those of its mesh
+            bend = self._bend(self._numbers(self._side(0.0).interface), half, high, low) / most
+        worst = bend.max(axis=0)
+        order = np.argsort(-worst, kind="stable")
+        return np.asarray(order[worst[order] > _KINK])
+
+    @property
+    def _beside(self) -> tuple[Interface, Interface]:
+        """The pairs a step forwards and backwards."""
+        return self._side(1.0).interface, self._side(-1.0).interface
+
+    @staticmethod
+    def _bend(middle: Array, half: Array, high: Array, low: Array) -> Array:
+        """Of numbers at parts of a step, by how much they grow otherwise forwards than both ways."""
+        return np.abs(4.0 * half - 3.0 * middle - high - (high - low) / 2.0)
 
     def kink(self, view: HistoryView) -> str:
         """What it does to the pair that it changes most otherwise to one side than to the other, in words."""

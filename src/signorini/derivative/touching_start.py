@@ -166,15 +166,18 @@ class TouchingStart:
             Where the path with other gaps is not known.
         """
         assert rate.gap is not None
-        if rate.B is not None:
-            return self._memory(rate)
-        key = rate.gap.tobytes()
+        gap = np.where(self.moved(rate), rate.gap, 0.0)  # what pairs that are apart do has events of its own
+        size = float(np.abs(gap).max())
+        alike = GapRate(gap=gap / size, B=None if rate.B is None else rate.B / size)
+        if alike.B is not None:
+            return size * self._memory(alike)
+        key = (gap / size).tobytes()
         if key not in self._known:
-            self._known[key] = self._memory(rate)
-        return self._known[key]
+            self._known[key] = self._memory(alike)
+        return size * self._known[key]
 
     def _memory(self, rate: GapRate) -> Array:
-        """See `memory`."""
+        """See `memory`, of a change of gaps whose largest is 1."""
         assert rate.gap is not None
         first, leg = self.points[0], self.legs[0]
         system = first.system
@@ -182,13 +185,12 @@ class TouchingStart:
         assert leg.segment is not None
         cones = system.directions == 3 and bool((system.law.law.rubs & (system.law.section.sides == 0)).any())
         if not (cones or leg.start.r.any() or first.quiet or first.passes):
-            gap = np.where(np.abs(rate.gap) > rate.rounding, rate.gap, 0.0)
             way = _UNTIL * first.part * (leg.segment.end.b - leg.start.b)
-            size = float(np.abs(way).max()) / float(np.abs(system.root * gap[system.active]).max())
-            found = (self._per_share(part * size, replace(rate, gap=gap), way) for part in _PARTS)
+            size = float(np.abs(way).max()) / float(np.abs(system.root * rate.gap[system.active]).max())
+            found = (self._per_share(part * size, rate, way) for part in _PARTS)
             large, small = islice(chain(dropwhile(lambda moved: moved is None, found), (None, None)), 2)
             # where a body is carried by a length, however small the change, motions are in no proportion to it
-            if large is not None and small is not None and _in_proportion(large, small, gap):
+            if large is not None and small is not None and _in_proportion(large, small):
                 return large
         raise InputError(
             "pairs touch without a force where the history begins: what the history does is not known where their gaps "
@@ -248,10 +250,9 @@ class TouchingStart:
         return _alike(found, first.states)
 
 
-def _in_proportion(one: Array, two: Array, gap: Array) -> bool:
-    """Whether motions per share of a change of gaps (n,) are the same."""
-    size = max(float(np.abs(one).max()), float(np.abs(gap).max()))
-    return float(np.abs(one - two).max()) <= _SAME_MOTION * size
+def _in_proportion(one: Array, two: Array) -> bool:
+    """Whether motions per share of a change of gaps, whose largest is 1, are the same."""
+    return float(np.abs(one - two).max()) <= _SAME_MOTION * max(1.0, float(np.abs(one).max()))
 
 
 def _alike(one: PairStates, two: PairStates) -> bool:
