@@ -60,6 +60,7 @@ class TapedHistory:
         self._probe = EdgeProbe(self.view.points)
         self._changes: dict[tuple[str, str], Change] = {}
         self._forward: dict[tuple[str, str], list[PointChange]] = {}
+        self._edges: dict[tuple[str, str], list[PathEdge]] = {}
         self._locked: dict[str, Derivative] = {}
         self._seen = ModulusPairs(self.prepared)
         self.start = TouchingStart(legs=self.legs, points=self.view.points)
@@ -83,7 +84,8 @@ class TapedHistory:
     def on(self, points: Sequence[TapePoint]) -> TapedHistory:
         """The history with other states at some points."""
         other = copy(self)
-        other.view, other._forward, other._probe = replace(self.view, points=points), {}, EdgeProbe(points)
+        other.view, other._probe = replace(self.view, points=points), EdgeProbe(points)
+        other._forward, other._edges = {}, {}
         return other
 
     def forward(self, kind: str, name: str) -> list[PointChange]:
@@ -96,11 +98,14 @@ class TapedHistory:
         return self._forward[kind, name]
 
     def edges(self, kind: str, name: str) -> list[PathEdge]:
-        """Where a parameter has another derivative to each of its sides."""
-        locks = self.view.points[-1].system.locked
-        if not self._probe or not (locks or self._probe.takes_apart(self.change(kind, name))):
+        """Where a parameter has another derivative to each of its sides, kept."""
+        if not self._probe:
             return []
-        return edges(self.view, self.forward(kind, name))
+        if (kind, name) not in self._edges:
+            locks = self.view.points[-1].system.locked
+            may = locks or self._probe.takes_apart(self.change(kind, name))
+            self._edges[kind, name] = edges(self.view, self.forward(kind, name)) if may else []
+        return self._edges[kind, name]
 
     def change(self, kind: str, name: str) -> Change:
         """What a parameter changes at once, kept."""
