@@ -266,6 +266,22 @@ def test_at_an_event_a_derivative_has_two_sides(ending_at_an_event, parameter):
         )
 
 
+def test_at_an_event_a_shape_has_two_sides(ending_at_an_event):
+    model, node = ending_at_an_event
+    points, step = model.mesh.points, 1e-6
+    motion = points @ np.array([[0.3, 0.2], [-0.1, 0.4]])
+    derivative = sg.solve(model, tape=True).derivative(sg.pressure("joint").peak)
+
+    def peak(part):
+        mesh = replace(model.mesh, points=points + part * step * motion)
+        return sg.solve(replace(model, mesh=mesh), tape=True).derivative(derivative.output).value
+
+    wanted = [way * (4.0 * peak(0.5 * way) - 3.0 * derivative.value - peak(way)) / step for way in (-1.0, 1.0)]
+    assert derivative.shape_sides(motion) == pytest.approx(wanted, rel=1e-6)
+    with pytest.raises(sg.InputError, match=rf"node {node + 1} of 'joint' slips at load factor 2: .* two sides"):
+        derivative.shape(motion)
+
+
 def test_grazing_is_refused(solved):
     _, solution, _ = solved
     point = next(point for point in solution._taped.view.points if point.at_event)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
@@ -16,6 +16,7 @@ from signorini.derivative.adjoint import adjoint_of
 from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.by_name import ByName
 from signorini.derivative.changes import ChangeWithLocks, LoadChange, LockChange
+from signorini.derivative.direct_changes import pulled_by, read_otherwise
 from signorini.derivative.edge_probe import EdgeProbe
 from signorini.derivative.functionals import value
 from signorini.derivative.moduli import ModulusChange
@@ -34,9 +35,10 @@ from signorini.engine.prepare import Prepared
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
 from signorini.model.model import Model
-from signorini.model.outputs import Displacement, Dissipation, Output, Stress, WeightedSum
+from signorini.model.outputs import Displacement, Output
 from signorini.solution.sensitivities import Validity
 
+_SAME_CONDITION = 1e-12  # of the data of the law: by how much conditions differ between bodies that are the same
 _TWO_SIDES = 1e-6  # of a derivative: what those to both sides may differ by and still be the same up to differences
 
 
@@ -91,21 +93,27 @@ class TapedHistory:
     def forward(self, kind: str, name: str) -> list[PointChange]:
         """What a parameter changes at every point, kept."""
         if (kind, name) not in self._forward:
-            change = self.change(kind, name)
-            shortenings = {lock.name: shortening.along(change) for lock, shortening in self.locks()}
-            at_once = ChangeWithLocks(change=change, shortenings=shortenings) if shortenings else change
-            self._forward[kind, name] = forward(self.view.points, at_once)
+            self._forward[kind, name] = self._forward_along(self.change(kind, name))
         return self._forward[kind, name]
+
+    def _forward_along(self, change: Change) -> list[PointChange]:
+        """What a change makes of every point."""
+        shortenings = {lock.name: shortening.along(change) for lock, shortening in self.locks()}
+        at_once = ChangeWithLocks(change=change, shortenings=shortenings) if shortenings else change
+        return forward(self.view.points, at_once)
 
     def edges(self, kind: str, name: str) -> list[PathEdge]:
         """Where a parameter has another derivative to each of its sides, kept."""
-        if not self._probe:
-            return []
         if (kind, name) not in self._edges:
-            locks = self.view.points[-1].system.locked
-            may = locks or self._probe.takes_apart(self.change(kind, name))
-            self._edges[kind, name] = edges(self.view, self.forward(kind, name)) if may else []
+            self._edges[kind, name] = self.edges_along(self.change(kind, name), lambda _: self.forward(kind, name))
         return self._edges[kind, name]
+
+    def edges_along(self, change: Change, known: Callable[[Change], list[PointChange]] | None = None) -> list[PathEdge]:
+        """Where a change has another derivative to each of its sides; ``known`` gives what it makes of every point."""
+        if not self._probe or not (self.view.points[-1].system.locked or self._probe.takes_apart(change)):
+            return []
+        rounding = _SAME_CONDITION / change.step if isinstance(change, BodyChange) else 0.0
+        return edges(self.view, (known or self._forward_along)(change), rounding)
 
     def change(self, kind: str, name: str) -> Change:
         """What a parameter changes at once, kept."""
@@ -211,21 +219,31 @@ class Derivative:
             Where pairs share an event on the way, or one is about to close at the end: then one side is not known.
         """
         kind, name = split(parameter)
-        view, change = self._history.view, self._history.change(kind, name)
-        last = view.number(self.output.load_factor)
-        found = [edge for edge in self._history.edges(kind, name) if edge.point <= last]
-        low = high = self
-        if found:
-            at_end = len(found) == 1 and found[0].point == last
-            other = beyond(view, found[0].condition, self._history.legs, last) if at_end else None
-            if other is None:
-                raise InputError(f"{found[0].words}: what '{parameter}' does on the other side is not known")
-            across = Derivative(self._history.on(other), replace(self.output, load_factor=None))
-            low, high = (across, self) if found[0].change > 0.0 else (self, across)
+        change = self._history.change(kind, name)
+        low, high = self._beside(self._history.edges(kind, name), f"'{parameter}'")
         gap = GapRate.of(change)
         own = self.along(change)
         below, above = (own if one is self else one.along(change) for one in (low, high))
         return below + low.through_start(gap, -1.0), above + high.through_start(gap, 1.0)
+
+    def _beside(self, found: list[PathEdge], what: str = "the motion") -> tuple[Derivative, Derivative]:
+        """The derivatives below and above what is varied, of a history that has edges.
+
+        Raises
+        ------
+        InputError
+            Where one of both is not known.
+        """
+        view, last = self._history.view, self._history.view.number(self.output.load_factor)
+        found = [edge for edge in found if edge.point <= last]
+        if not found:
+            return self, self
+        at_end = len(found) == 1 and found[0].point == last
+        other = beyond(view, found[0].condition, self._history.legs, last) if at_end else None
+        if other is None:
+            raise InputError(f"{found[0].words}: what {what} does on the other side is not known")
+        across = Derivative(self._history.on(other), replace(self.output, load_factor=None))
+        return (across, self) if found[0].change > 0.0 else (self, across)
 
     def holds(self, parameter: str) -> Validity:
         """In which changes of a parameter, ``kind.name``, the sequence of events stays; to first order."""
@@ -245,20 +263,22 @@ class Derivative:
         low, high = self._to_sides(sides)
         if _apart(low, high):
             words = f"the derivative has two sides, {low:.6g} and {high:.6g}; shape_sides(motion) gives both"
-            view, gap = self._history.view, GapRate.of(sides.change)
-            why = sides.kink(view) if len(sides.kinked) else self._history.start.edges(view, gap)[0].words
+            history, change = self._history, sides.change
+            edges = history.start.edges(history.view, GapRate.of(change)) or history.edges_along(change)
+            why = sides.kink(history.view) if len(sides.kinked) else edges[0].words
             raise InputError(f"{why}: {words}", where=("motion",))
         return self._upwards(sides.change) if len(sides.kinked) else high
 
     def shape_sides(self, motion: ArrayLike) -> tuple[float, float]:
         """The derivatives by a motion of the nodes, (nodes, d), backwards and forwards along it; mostly the same.
 
-        They differ where nodes leave a straight side opposite a smooth one, or move its end away from a flush one.
+        They differ where nodes leave a straight side opposite a smooth one, part flush ends, or change gaps that are none
+        before anything is loaded; and at an event.
 
         Raises
         ------
         InputError
-            Where the motion has another shape, or moves nothing.
+            Where the motion has another shape, moves nothing, or one of both is not known.
         """
         return self._to_sides(ShapeSides.of(self._history.prepared, motion))
 
@@ -266,12 +286,17 @@ class Derivative:
         """The derivatives backwards and forwards along a motion."""
         if len(sides.kinked):
             ways = [list(sides.towards(way)) for way in (-1.0, 1.0)]
-            low, high = (sum(weight * self.along(part) for weight, part in parts) for parts in ways)
+            ends = [self._beside(self._history.edges_along(parts[0][1]))[k] for k, parts in enumerate(ways)]
+            own = [
+                sum(weight * end.along(part) for weight, part in parts) for end, parts in zip(ends, ways, strict=True)
+            ]
             gaps = [GapRate.sum([(weight, GapRate.of(part)) for weight, part in parts]) for parts in ways]
         else:
-            low = high = self.along(sides.change)
+            ends = list(self._beside(self._history.edges_along(sides.change)))
+            own = [end.along(sides.change) for end in dict.fromkeys(ends)] * 2  # one where both are the same
             gaps = [GapRate.of(sides.change)] * 2
-        return low + self.through_start(gaps[0], -1.0), high + self.through_start(gaps[1], 1.0)
+        low, high = (own[k] + ends[k].through_start(gaps[k], way) for k, way in enumerate((-1.0, 1.0)))
+        return low, high
 
     def through_start(self, gap: GapRate, way: float) -> float:
         """What changes of gaps do besides where pairs touch without a force as the history begins, to one side.
@@ -346,11 +371,12 @@ class Derivative:
 
     def _along(self, change: Change) -> float:
         """What a change changes of the output while bolts that have locked are as long as they are."""
-        found = changed(self._history.view.every, self._adjoint, change)
+        view = self._history.view
+        found = changed(view.every, self._adjoint, change)
         if isinstance(change, BodyChange | ModulusChange):
-            found += self._at_once(change)
+            found += read_otherwise(self.output, view, change)
         if isinstance(change, LoadChange):
-            found += self._pulled_by(change)
+            found += pulled_by(view, change, self._adjoint.pulled, self._pulls)
         return found
 
     def _gap(self, contact: str) -> Array:
@@ -367,26 +393,6 @@ class Derivative:
             found[stack.system.active] += stack.motion[:, 0].sum(axis=0)
         through_locks = (share * shortening.gap[contact] for share, shortening in self._locks)
         return sum(through_locks, found[view.pairs(contact)])
-
-    def _pulled_by(self, change: LoadChange) -> float:
-        """What a load or a moving support changes of an output of bodies while the pairs stay as they are."""
-        found, name = 0.0, change.name
-        for i, y in self._adjoint.pulled.items():
-            point = self._history.view.points[i]
-            constraints, factor = point.system.prepared.constraints, change.factor(point)
-            found += factor * float(y @ constraints.on_free(point.system.unit(name).forces))
-            if name in constraints.prescribed:
-                found += factor * float(self._pulls[i] @ constraints.prescribed[name])
-        return found
-
-    def _at_once(self, change: BodyChange | ModulusChange) -> float:
-        """What a change of the bodies changes of the output while motions, forces and displacements stay."""
-        if isinstance(self.output, Dissipation | Displacement):  # of motions and forces, or displacements, alone
-            return 0.0
-        if isinstance(change, ModulusChange) and not change.tilts and not isinstance(self.output, Stress | WeightedSum):
-            return 0.0
-        low, high = change.views(self._history.view)
-        return (value(self.output, high) - value(self.output, low)) / (2.0 * change.step)
 
 
 def _apart(low: float, high: float) -> bool:

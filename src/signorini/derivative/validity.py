@@ -69,8 +69,15 @@ def on_edge(point: TapePoint) -> list[int]:
     return np.flatnonzero(np.abs(point.conditions.value) <= _ZERO * (point.system.law.scale or 1.0)).tolist()
 
 
-def edges(view: HistoryView, changes: Sequence[PointChange]) -> list[PathEdge]:
-    """Where a parameter has another derivative to each of its sides: pairs that share an event, or end on one."""
+def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0.0) -> list[PathEdge]:
+    """Where a parameter has another derivative to each of its sides: pairs that share an event, or end on one.
+
+    Parameters
+    ----------
+    view : the history
+    changes : what the parameter changes at every point
+    rounding : of the data of the law, per unit: what a change of a condition is as good as none below
+    """
     moves = max((abs(change.part) for change in changes), default=0.0)
     found = []
     for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
@@ -84,7 +91,7 @@ def edges(view: HistoryView, changes: Sequence[PointChange]) -> list[PathEdge]:
                 if point.at_event
                 else abs(grows) > _SHARED_EVENT * float(np.abs(grown).max())
             )
-            if apart and abs(grows) > _ZERO * scale * moves:
+            if apart and abs(grows) > scale * max(_ZERO * moves, rounding):
                 named = np.array([k])
                 words = _words(view, point, point.conditions.pair[named], _what(point, named))(0)
                 words = words.replace("before load", "with another at load" if point.at_event else "at load")

@@ -93,7 +93,14 @@ def _orthonormal(some: Array, r: int) -> int:
 
 @part()
 def take(work: Array, rank: int, k: int, r: int, P: Array) -> None:
-    """Write combinations as the columns (rank, k + r) of a front, those of the unknowns below it."""
+    """Write combinations as the columns (rank, k + r) of a front, those of the unknowns below it.
+
+    Parameters
+    ----------
+    work, rank : as `combinations` leaves them
+    k, r : unknowns that the front eliminates, and those below it
+    P : numbers of the front
+    """
     for i in range(r):
         for c in range(rank):
             P[(k + i) * rank + c] = work[0, c, i]
@@ -101,7 +108,14 @@ def take(work: Array, rank: int, k: int, r: int, P: Array) -> None:
 
 @part()
 def gather(above: Array, rank: int, local: Int32Array, below: Int32Array, P: Array, k: int) -> None:
-    """Take those of unknowns below a front from its parent's."""
+    """Take those of unknowns below a front from its parent's.
+
+    Parameters
+    ----------
+    above, rank : numbers of the parent, (rank, unknowns) by columns
+    local : where unknowns stand in the parent
+    below, P, k : unknowns below the front, its numbers, and how many unknowns it eliminates
+    """
     for i in range(len(below)):
         start = local[below[i]] * rank
         for c in range(rank):
@@ -110,7 +124,14 @@ def gather(above: Array, rank: int, local: Int32Array, below: Int32Array, P: Arr
 
 @part()
 def eliminate(k: int, r: int, rank: int, panel: int, P: int, s: Scratch) -> None:
-    """Combinations at what a front eliminates, from the address of its columns into P's."""
+    """Combinations at what a front eliminates, from those below it.
+
+    Parameters
+    ----------
+    k, r, rank : unknowns that the front eliminates, those below it, and combinations
+    panel, P : addresses of its columns of the factor, and of its numbers
+    s : of BLAS
+    """
     size = k + r
     mixed, rest = StoredMatrix(P, rank), StoredMatrix(P + 8 * rank * k, rank)
     gemm(AS_STORED, rank, k, r, rest, StoredMatrix(panel + 8 * k, size), s.zero, mixed, s)
