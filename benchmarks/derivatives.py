@@ -22,12 +22,12 @@ import numpy as np
 
 import signorini as sg
 from benchmarks import page
+from signorini.blas_threads import one_thread
 from signorini.derivative.derivative import Derivative, TapedHistory
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.engine.tape import Tape
 from signorini.gallery.cylinder import zhu_cylinder
-from signorini.linalg.threads import one_thread
 from signorini.model.outputs import Output
 
 _PAGE = Path(__file__).parent.parent / "docs" / "derivatives.md"

@@ -18,6 +18,7 @@ import numpy as np
 
 import signorini as sg
 from benchmarks import page
+from signorini.blas_threads import one_thread
 from signorini.engine.prepare import prepare
 from signorini.engine.stride_pairs import paired
 from signorini.gallery.sliding import dragged_cylinder
@@ -25,7 +26,6 @@ from signorini.interface.interface import Interface
 from signorini.interface.mean_pairs import MeanPairs
 from signorini.interface.sliding import paired_at
 from signorini.linalg.registry import factorise
-from signorini.linalg.threads import one_thread
 
 _PAGE = Path(__file__).parent.parent / "docs" / "sliding.md"
 _HEAD = (

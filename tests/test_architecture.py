@@ -29,6 +29,7 @@ BASE = {
     "attempt",
     "errors",
     "arrays",
+    "blas_threads",
     "checks",
     "clock",
     "compilation",

@@ -6,11 +6,18 @@ from __future__ import annotations
 import heapq
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from contextvars import ContextVar, copy_context
+from functools import partial
 from threading import Condition
 from types import TracebackType
 from typing import NamedTuple, Self, TypeVar
 
+from signorini.cores import number_of_threads
+
 T = TypeVar("T")
+
+_around: ContextVar[ThreadPoolExecutor | None] = ContextVar("crew", default=None)
 
 
 class Job(NamedTuple):
@@ -27,7 +34,9 @@ class Job(NamedTuple):
 
 
 class Crew:
-    """A number of threads; with one, whoever calls works itself.
+    """A number of threads, whoever calls among them; with one, nobody else works.
+
+    What jobs share in turn goes to the same threads, so that there are never more of them, and BLAS has one meanwhile.
 
     >>> said = []
     >>> with Crew(2) as crew:
@@ -42,20 +51,28 @@ class Crew:
 
     def __init__(self, threads: int) -> None:
         self.threads = threads
-        self._pool = ThreadPoolExecutor(threads) if threads > 1 else None
+        self._pool: ThreadPoolExecutor | None = None
+        self._open = ExitStack()
 
     def __enter__(self) -> Self:
+        if self.threads > 1:
+            self._pool = _around.get() or self._hired()
         return self
 
+    def _hired(self) -> ThreadPoolExecutor:
+        from signorini.blas_threads import one_thread  # loads BLAS, which what is small may do without
+
+        self._open.enter_context(one_thread())
+        return self._open.enter_context(ThreadPoolExecutor(self.threads - 1))
+
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
-        if self._pool is not None:
-            self._pool.shutdown(cancel_futures=True)
+        self._open.close()
 
     def each(self, calls: Sequence[Callable[[], T]]) -> list[T]:
-        """What calls give that need nothing of each other."""
-        if self._pool is None:
-            return [call() for call in calls]
-        return [future.result() for future in [self._pool.submit(call) for call in calls]]
+        """What calls give that need nothing of each other; raise what the first one raises that fails."""
+        found: dict[int, T] = {}
+        self.finish([Job(partial(_put, found, i, call)) for i, call in enumerate(calls)])
+        return [found[i] for i in range(len(calls))]
 
     def finish(self, jobs: Sequence[Job]) -> None:
         """Do jobs, of those that can be done always the first; raise what the first one raises that fails."""
@@ -64,21 +81,42 @@ class Crew:
                 job.call()
             return
         jobs_left = _Jobs(jobs)
-        workers = [self._pool.submit(jobs_left.work) for _ in range(self.threads)]
+        token = _around.set(self._pool)
         try:
-            for worker in workers:
-                worker.result()
+            for _ in range(min(self.threads, len(jobs)) - 1):
+                self._pool.submit(copy_context().run, jobs_left.work)
+            jobs_left.work()
         finally:
+            _around.reset(token)
             jobs_left.stop()
         if jobs_left.error is not None:
             raise jobs_left.error
+
+
+def _put(found: dict[int, T], place: int, call: Callable[[], T]) -> None:
+    found[place] = call()
+
+
+def shared(calls: Sequence[Callable[[], T]], worth: bool) -> list[T]:
+    """What calls give that need nothing of each other, of as many threads as large models share.
+
+    >>> shared([lambda: 1, lambda: 2], worth=False)
+    [1, 2]
+
+    Parameters
+    ----------
+    calls : that let go of the interpreter while they compute
+    worth : whether they take so long that threads are to share them: tens of milliseconds
+    """
+    with Crew(number_of_threads() if worth and len(calls) > 1 else 1) as crew:
+        return crew.each(calls)
 
 
 class _Jobs:
     """Jobs of which several threads take the first that can be done."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
-        self.error: Exception | None = None
+        self.error: BaseException | None = None
         self._jobs = jobs
         self._end = len(jobs)  # jobs from here on are not done: one failed that comes before them
         self._missing = [len(job.needs) for job in jobs]
@@ -91,35 +129,39 @@ class _Jobs:
         self._changed = Condition()
 
     def stop(self) -> None:
-        """Begin no other job."""
+        """Begin no other job, and hold on to none: threads that are busy may hear of these only later."""
         with self._changed:
-            self._end = 0
+            self._end, self._jobs = 0, ()
             self._changed.notify_all()
 
     def work(self) -> None:
         """Do jobs until none is left."""
-        while (number := self._take()) is not None:
+        while (taken := self._take()) is not None:
+            number, job = taken
             error = None
             try:
-                self._jobs[number].call()
-            except Exception as found:  # whoever waits is told
+                job.call()
+            except BaseException as found:  # whoever waits is told
                 error = found
             self._done(number, error)
 
-    def _take(self) -> int | None:
+    def _take(self) -> tuple[int, Job] | None:
         """The first job that can be done, as soon as there is one; None where none will be."""
         with self._changed:
             while True:
                 if self._ready and self._ready[0] < self._end:
                     self._running += 1
-                    return heapq.heappop(self._ready)
+                    number = heapq.heappop(self._ready)
+                    return number, self._jobs[number]
                 if not self._running:
                     return None
                 self._changed.wait()
 
-    def _done(self, number: int, error: Exception | None) -> None:
+    def _done(self, number: int, error: BaseException | None) -> None:
         with self._changed:
             self._running -= 1
+            if error is not None and not isinstance(error, Exception):
+                number = -1  # the run is to end
             if error is not None and number < self._end:
                 self._end, self.error = number, error
             if error is None:

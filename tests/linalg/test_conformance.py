@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 from scipy import sparse
 
+from signorini import blas_threads
 from signorini.errors import InputError
-from signorini.linalg import AUTOMATIC, BACKENDS, Factorisation, NotPositiveDefinite, factorise, pardiso, threads
+from signorini.linalg import AUTOMATIC, BACKENDS, Factorisation, NotPositiveDefinite, factorise, pardiso
 from tests.helpers.lattices import dense_schur, lattice, rigid_motions, together
 
 PROBLEMS = {
@@ -172,9 +173,9 @@ def test_repeats_to_the_last_bit():
 
 def test_blas_keeps_its_threads():
     p = lattice((8, 8))
-    before = [get() for _, get in threads._found]
+    before = [get() for _, get in blas_threads._found]
     factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal").reduce(np.ones(p.K.shape[0]))
-    assert [get() for _, get in threads._found] == before
+    assert [get() for _, get in blas_threads._found] == before
 
 
 @pytest.mark.parametrize(

@@ -63,28 +63,41 @@ def test_every_number_of_threads_gives_the_same_bits(name):
     assert np.abs((p.K @ moved - load)[inside]).max() <= 1e-9 * np.abs(load).max()
 
 
+@pytest.mark.usefixtures("shared")
 @pytest.mark.parametrize("name", ["plane", "no interface"])
-def test_threads_share_many_loads_with_the_same_bits(name, monkeypatch):
-    monkeypatch.setattr(multifrontal, "SHARED_WORK", 0.0)
+@pytest.mark.parametrize("several", [50, 1])
+def test_threads_share_solves_with_the_same_bits(name, several, monkeypatch):
+    """Many loads by 16, and of every load the way back by branches of the tree, once the fronts above them are done."""
+    monkeypatch.setattr(multifrontal, "SHARED_SOLVE", 0.0)
     p, rng = PROBLEMS[name], np.random.default_rng(2)
     factor = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal")
-    loads, edge = rng.standard_normal((p.K.shape[0], 50)), rng.standard_normal((len(p.interface), 50))
+    loads, edge = rng.standard_normal((p.K.shape[0], several)), rng.standard_normal((len(p.interface), several))
     found, workers = [], set()
-    run = multifrontal.Crew.each
+    run = multifrontal.Crew.finish
 
-    def each(crew, calls):
-        workers.add((crew.threads, len(calls)))
-        return run(crew, calls)
+    def finish(crew, jobs):
+        workers.add((crew.threads, len(jobs)))
+        run(crew, jobs)
 
-    monkeypatch.setattr(multifrontal.Crew, "each", each)
+    monkeypatch.setattr(multifrontal.Crew, "finish", finish)
     for number in (1, 2, 3):
         with cores.threads(number):
             reduced = factor.reduce(loads)
             found.append((reduced.load, reduced.expand(edge)))
-    assert workers == {(1, 4), (2, 4), (3, 4)}
+    times, branches = -(-several // 16), sum(part.branch for part in factor.plan.parts)
+    assert branches > 4
+    there, back = times, times * (1 + branches)
+    assert workers == {
+        (1, there),
+        (1, back),
+        (2, back),
+        (3, back),
+        (2 if times > 1 else 1, there),
+        (3 if times > 1 else 1, there),
+    }
     for other in found[1:]:
         assert all(np.array_equal(one, two) for one, two in zip(found[0], other, strict=True))
-    for column in (0, 15, 16, 49):
+    for column in {0, several // 3, several - 1}:
         alone = factor.reduce(loads[:, column]).expand(edge[:, column])
         assert np.abs(found[0][1][:, column] - alone).max() <= 1e-12 * np.abs(alone).max()
 

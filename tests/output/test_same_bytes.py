@@ -9,9 +9,9 @@ import h5py
 import numpy as np
 import pytest
 
-from signorini import cores
+from signorini import blas_threads, cores
 from signorini.cli import main
-from signorini.linalg import plan, schedule, threads
+from signorini.linalg import plan, schedule
 from signorini.output.dataclasses_json import unsealed
 
 SPACE = """\
@@ -85,7 +85,7 @@ def _dataset(key: str, part: h5py.Dataset | h5py.Group) -> dict[str, object]:
 @pytest.fixture
 def use() -> Iterator[object]:
     """Says how many threads the BLAS of SciPy and NumPy may use."""
-    found = threads._found
+    found = blas_threads._found
     before = [get() for _, get in found]
     yield lambda number: [set_number(number) for set_number, _ in found]
     for (set_number, _), number in zip(found, before, strict=True):

@@ -15,6 +15,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from signorini.blas_threads import one_thread
 from signorini.checks import number
 from signorini.cli.progress import progress
 from signorini.clock import Clock
@@ -24,7 +25,6 @@ from signorini.engine.condensation import refuse_unknown
 from signorini.engine.first_run import FIRST_SOLVE, compiles_first
 from signorini.engine.solve import solve
 from signorini.errors import InputError, SolveFailed
-from signorini.linalg.threads import one_thread
 from signorini.memory import share_one_heap
 from signorini.model.accuracy import Accuracy, Asked
 from signorini.outcome import Outcome

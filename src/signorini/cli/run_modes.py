@@ -13,10 +13,10 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from signorini.api import solve
+from signorini.blas_threads import one_thread
 from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.errors import InputError
-from signorini.linalg.threads import one_thread
 from signorini.model.modes import STUCK, ModesRequest
 from signorini.output.atomic_write import atomic_write
 from signorini.output.folder import own_folder

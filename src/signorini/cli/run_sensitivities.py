@@ -8,11 +8,11 @@ import json
 from pathlib import Path
 
 from signorini.api import solve
+from signorini.blas_threads import one_thread
 from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.derivative.refusals import refuse_model
 from signorini.errors import InputError
-from signorini.linalg.threads import one_thread
 from signorini.output.sensitivities_file import write_sensitivities
 from signorini.output.sensitivities_table import sensitivities_data, sensitivities_table
 

@@ -118,7 +118,7 @@ class Team:
 
     def serve(self) -> None:
         """Do what the first rank asks for, until it says that it has ended."""
-        from signorini.linalg.threads import one_thread  # heavy as well
+        from signorini.blas_threads import one_thread  # heavy as well
 
         for number in _ENDING_SIGNALS:
             signal.signal(number, signal.SIG_IGN)  # the first rank hears them too, and ends all

@@ -25,7 +25,7 @@ from signorini.condense._kernels import block_on, felt_stiffness, mirror
 from signorini.fem import _kernels
 from signorini.linalg import _front_solves, _fronts, _symbolic
 from signorini.linalg._blas import scratch
-from signorini.linalg._graph import Elimination, Graph, Rows, both_ways, quotient, subgraph
+from signorini.linalg._graph import Elimination, Graph, Rows, both_ways, quotient_rows, subgraph
 from signorini.linalg.plan import RELAX, Fronts
 from signorini.model.model import Model
 
@@ -58,13 +58,14 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
     graph, elimination, rows = Graph(small, small), Elimination(small, small), Rows(small, small, real)
     fronts = Fronts(small, small, large, small, small, small, large, small)
     tree = _fronts.Tree(fronts, rows, elimination, small, _fronts.Factors(real, square, real))
-    solved = (fronts, real, square, real, scratch())
+    solved = (real, square, real, scratch())
     cells = _kernels.Cells(
         np.zeros((1, 1), np.int32), np.zeros((1, 1, 1)), real, large, square, square, np.zeros((1, 1, 1, 1)), square
     )
     points = np.zeros((1, 2))
     points.flags.writeable = False  # as meshes keep them
     laws = _kernels.Laws(np.zeros((1, 3), np.uint32), square, real, 2)
+    kept = _kernels.Kept(small, small, real)
     pattern = _kernels.SparsityPattern(large, small, real)
     return [
         (felt_stiffness, (small, small, real, small, small, real, 1)),
@@ -72,8 +73,8 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
         (mirror, (square,)),
         (mirror, (np.zeros((2, 2), order="F"),)),
         (_fronts.add_interface, (rows, elimination, small, square)),
-        (_front_solves.backward, solved),
-        (_front_solves.forward, solved),
+        (_front_solves.backward, (fronts, 0, 1, *solved)),
+        (_front_solves.forward, (fronts, *solved)),
         (_front_solves.pivots, (fronts, real)),
         (_fronts.factorise_fronts, (tree, 0, 1, _fronts.stacks(fronts, 1, (1, 1)), False)),
         (_symbolic.stack_peaks, (small, small, large)),
@@ -85,7 +86,8 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
         (_symbolic.elimination_tree, (graph, elimination, 1)),
         (subgraph, (graph, 1)),
         (both_ways, (graph,)),
-        (quotient, (graph, small, small, small)),
+        (quotient_rows, (graph, small, small, small, (0, 1))),
+        (_kernels.keep_rows, (kept, small, kept, 0, 1)),
         (_kernels.add_block, (points, cells, laws, pattern, _kernels.Share(small, small, 0))),
         (_kernels.unknown_pattern, (large, small, 2)),
         (_kernels.node_pattern, (large, small, 1)),

@@ -10,11 +10,11 @@ from functools import cache
 import numpy as np
 
 from signorini.arrays import Array, frozen
+from signorini.blas_threads import one_thread
 from signorini.engine.examine import Examined, examine
 from signorini.engine.reactions import rigid_dofs, rigid_motions, rigid_names
 from signorini.engine.recovery import Recovery
 from signorini.errors import InputError
-from signorini.linalg.threads import one_thread
 from signorini.solution.history import History
 from signorini.solution.nodal_forces import NodalForces
 from signorini.solution.obstacle_result import ObstacleMotion

@@ -10,6 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
+from signorini.blas_threads import one_thread
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed
 from signorini.distributed.ranks import ON_RANKS, PETSC
@@ -33,7 +34,6 @@ from signorini.fem.supports import make_constraints
 from signorini.interface.interface import Interface
 from signorini.interface.worn_sides import WornSides, worn_sides
 from signorini.linalg.plan import Plans
-from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.stage import Stage, stages
 from signorini.plasticity.bodies import YieldingBodies, yielding_bodies

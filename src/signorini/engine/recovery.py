@@ -17,6 +17,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
+from signorini.blas_threads import one_thread
 from signorini.condense.response import held_by_springs
 from signorini.engine.examine import Examined, examine
 from signorini.engine.fatigue_places import refuse_unrecoverable
@@ -25,7 +26,6 @@ from signorini.fem.rigid import free_motions
 from signorini.fem.stiffness import reduced_stiffness, stiffness
 from signorini.linalg.protocol import Factorisation
 from signorini.linalg.registry import factorise
-from signorini.linalg.threads import one_thread
 from signorini.solution.history import History
 from signorini.solution.results import Instant, StepResult
 

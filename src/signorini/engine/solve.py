@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.blas_threads import one_thread
 from signorini.clock import Clock
 from signorini.distributed.ranks import MUMPS, PETSC
 from signorini.engine.contact_changes import pressed_gap, relaxed, staged, switched
@@ -38,7 +39,6 @@ from signorini.engine.wellposed import assess
 from signorini.errors import InputError, Interrupted, SolveFailed
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import pairs_of
-from signorini.linalg.threads import one_thread
 from signorini.memory import give_memory_back, out_of_memory
 from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages

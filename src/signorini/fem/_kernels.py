@@ -88,6 +88,42 @@ def unknown_pattern(rows: IntArray, columns: Int32Array, d: int) -> tuple[Int32A
     return indptr, indices
 
 
+class Kept(NamedTuple):
+    """A sparse matrix by rows, or what is kept of it."""
+
+    indptr: Int32Array
+    indices: Int32Array
+    data: Array
+
+
+@kernel(nogil=True)
+def keep_rows(every: Kept, number: Int32Array, kept: Kept, low: int, high: int) -> None:
+    """Keep rows and columns of a matrix: those of a range of its rows; with no room for entries, count them.
+
+    Parameters
+    ----------
+    every : the matrix
+    number : of every row and column among those that are kept, -1 of others
+    kept : what is written: the entries of row i behind ``indptr[i]``, or their number into ``indptr[i + 1]``
+    low, high : range of rows of the matrix
+    """
+    counts = len(kept.data) == 0
+    for i in range(low, high):
+        row = number[i]
+        if row < 0:
+            continue
+        top = 0 if counts else kept.indptr[row]
+        for p in range(every.indptr[i], every.indptr[i + 1]):
+            j = number[every.indices[p]]
+            if j < 0:
+                continue
+            if not counts:
+                kept.indices[top], kept.data[top] = j, every.data[p]
+            top += 1
+        if counts:
+            kept.indptr[row + 1] = top
+
+
 class Cells(NamedTuple):
     """Elements of one kind; what stands here without a dimension goes for all of them.
 

@@ -95,9 +95,10 @@ def stiffness(
     pattern = _kernels.SparsityPattern(rows, columns, data)
     threads = number_of_threads() if len(sizes) > SHARED_CELLS else 1
     of = _shares(points, threads)
+    made = []
     for number, (block, cells) in enumerate(zip(blocks, nodes, strict=True)):
         at = (len(cells), len(block.weights))
-        made = Cells(
+        own = Cells(
             nodes=cells,
             shape_gradients=np.ascontiguousarray(block.shape_gradients, dtype=np.float64),
             weights=np.ascontiguousarray(block.weights, dtype=np.float64),
@@ -107,12 +108,13 @@ def stiffness(
             modes=np.ascontiguousarray(block.modes) if block.modes.size else np.empty((*at, 0, e)),
             pressures=block.pressures if block.pressures.size else np.empty((at[1], 0)),
         )
-        with Crew(threads) as crew:
-            adds = [partial(_add_share, points, made, laws, pattern, of, share) for share in range(threads)]
-            bad = [(element, wrong) for element, wrong in crew.each(adds) if wrong]
-        if bad:
-            element, wrong = min(bad)
-            raise InputError(_complaint(element, number, wrong, points[cells[element]]))
+        made.append(own)
+    with Crew(threads) as crew:
+        found = crew.each([partial(_add_share, points, made, laws, pattern, of, share) for share in range(threads)])
+    bad = [place for place in found if place is not None]
+    if bad:
+        number, element, wrong = min(bad)
+        raise InputError(_complaint(element, number, wrong, points[nodes[number][element]]))
     return sparse.csr_array((data, indices, indptr), shape=(count * c, count * c))
 
 
@@ -124,12 +126,26 @@ def _shares(points: Array, number: int) -> Int32Array:
 
 
 def _add_share(
-    points: Array, elements: Cells, laws: _kernels.Laws, pattern: _kernels.SparsityPattern, of: Int32Array, share: int
-) -> tuple[int, int]:
-    """Add the rows of the nodes of a share, in the order of the elements, however many shares there are."""
-    owners = of[elements.nodes]
-    cells = np.flatnonzero((owners.min(axis=1) <= share) & (share <= owners.max(axis=1))).astype(np.int32)
-    return _kernels.add_block(points, elements, laws, pattern, _kernels.Share(cells, of, share))
+    points: Array,
+    blocks: Sequence[Cells],
+    laws: _kernels.Laws,
+    pattern: _kernels.SparsityPattern,
+    of: Int32Array,
+    share: int,
+) -> tuple[int, int, int] | None:
+    """Add the rows of the nodes of a share, in the order of the elements, however many shares there are.
+
+    Returns
+    -------
+    The first block with a bad element, its first one, and what is wrong with it
+    """
+    for number, elements in enumerate(blocks):
+        owners = of[elements.nodes]
+        cells = np.flatnonzero((owners.min(axis=1) <= share) & (share <= owners.max(axis=1))).astype(np.int32)
+        element, wrong = _kernels.add_block(points, elements, laws, pattern, _kernels.Share(cells, of, share))
+        if wrong:
+            return number, element, wrong
+    return None
 
 
 def _nodes(block: Cells, points: Array, number: int) -> Int32Array:

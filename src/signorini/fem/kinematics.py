@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import TypeVar
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray, among
+from signorini.crew import shared
 from signorini.fem.elasticity import STRAIN_PARTS
 from signorini.fem.jacobian import determinants, gradients_in_space, jacobians
 from signorini.fem.links import rigid_nodes
@@ -17,7 +20,11 @@ from signorini.fem.space import Block, Space
 from signorini.meshing.facets import HEXAHEDRON
 from signorini.model.model import Model
 
-_AT_ONCE = 1 << 16  # cells of a group: fields at all their points are held at a time, whatever the size of the mesh
+T = TypeVar("T")
+
+CELLS_AT_ONCE = 1 << 13
+"""Cells of a group at most: what is computed at all their points stays in the cache, and threads share the groups."""
+
 BRICKS = {"quad": np.array(HEXAHEDRON[:4])[:, :2] - 1.0, "hexahedron": np.array(HEXAHEDRON[:8]) - 1.0}
 """Families that have the incompatible formulation, with one internal mode along every reference axis; their corners."""
 
@@ -136,7 +143,7 @@ def groups(space: Space, model: Model) -> Iterator[Group]:
             own[own == "incompatible"] = "standard"
         for formulation in np.unique(own):
             every = np.nonzero(own == formulation)[0]
-            for index in np.split(every, range(_AT_ONCE, len(every), _AT_ONCE)):
+            for index in np.split(every, range(CELLS_AT_ONCE, len(every), CELLS_AT_ONCE)):
                 if len(index):
                     yield Group(block=block, index=index, body=body[index], formulation=str(formulation))
 
@@ -160,6 +167,16 @@ def of_bodies(groups: Iterable[Group], bodies: BoolArray) -> Iterator[Group]:
         own = bodies[group.body]
         if own.any():
             yield replace(group, index=group.index[own], body=group.body[own])
+
+
+def large(every: Iterable[Group]) -> bool:
+    """Whether groups have so many cells together that threads are to share them."""
+    return sum(len(group.index) for group in every) > CELLS_AT_ONCE
+
+
+def of_each(every: Sequence[Group], call: Callable[[Group], T]) -> list[T]:
+    """What a function gives of every group; of many cells, threads share the groups."""
+    return shared([partial(call, group) for group in every], worth=large(every))
 
 
 def kinematics(space: Space, model: Model, group: Group, *, best: bool = False) -> Kinematics:

@@ -4,18 +4,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import partial
+from itertools import pairwise
 
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, selection
+from signorini.cores import number_of_threads
+from signorini.crew import shared
+from signorini.fem import _kernels
 from signorini.fem.assembly import Cells
 from signorini.fem.assembly import stiffness as assemble
 from signorini.fem.elasticity import elasticities, law_tensor
-from signorini.fem.kinematics import Group, mode_gradients, straining_groups
+from signorini.fem.kinematics import Group, mode_gradients, of_each, straining_groups
 from signorini.fem.measure import measure
 from signorini.fem.space import Space
 from signorini.model.model import Model
+
+SHARED_ENTRIES = 1_000_000
+"""Entries of a stiffness of which threads share what is kept under supports: ten milliseconds of one thread."""
 
 _PRODUCT_TOL = 64.0 * float(np.finfo(np.float64).eps)  # of the products that an entry is summed from: what is rounding
 
@@ -64,26 +72,28 @@ def _bulk_moduli(model: Model) -> Array:
 def _assembled(space: Space, model: Model, groups: Iterable[Group], D: Array, bulk: Array) -> sp.csr_array:
     """(dofs, dofs) Of groups of cells under laws of the bodies, (b, 4, 4) or (b, 6, 6), with bulk moduli (b,)."""
     law = law_tensor(D, hoop=model.axisymmetric, twist=model.twists)
-    blocks = []
-    for group in groups:
-        block = group.block
-        at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
-        cells = Cells(
-            nodes=group.cells,
-            shape_gradients=block.gradients,
-            weights=block.weights,
-            material=group.body,
-            measure=measure(model, at, group.numbers),
-            shape_values=block.values,
-        )
-        if group.formulation == "incompatible":
-            cells = cells._replace(modes=mode_gradients(space, model, group))
-        elif group.formulation == "mean dilatation":
-            cells = cells._replace(pressures=block.pressures)
-        blocks.append(cells)
+    every = list(groups)
+    blocks = of_each(every, partial(_cells, space, model))
     K = assemble(space.mesh.points, blocks, law, bulk=bulk, axisymmetric=model.axisymmetric)
     K.resize((space.number_of_dofs, space.number_of_dofs))  # rigid obstacles have no stiffness
     return K
+
+
+def _cells(space: Space, model: Model, group: Group) -> Cells:
+    """What is assembled of a group of cells."""
+    block = group.block
+    at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
+    cells = Cells(
+        nodes=group.cells,
+        shape_gradients=block.gradients,
+        weights=block.weights,
+        material=group.body,
+        measure=measure(model, at, group.numbers),
+        shape_values=block.values,
+    )
+    if group.formulation == "incompatible":
+        return cells._replace(modes=mode_gradients(space, model, group))
+    return cells._replace(pressures=block.pressures) if group.formulation == "mean dilatation" else cells
 
 
 def reduced_stiffness(K: sp.csr_array, T: sp.csr_array) -> sp.csr_array:
@@ -118,11 +128,19 @@ def reduced_stiffness(K: sp.csr_array, T: sp.csr_array) -> sp.csr_array:
 
 def _of_free(K: sp.csr_array, free: BoolArray) -> sp.csr_array:
     """Rows and columns of K of dofs that are free."""
-    number = np.cumsum(free, dtype=K.indices.dtype) - 1
-    kept = free[K.indices]
-    kept &= np.repeat(free, np.diff(K.indptr))
-    until = np.zeros(len(kept) + 1, dtype=K.indptr.dtype)
-    np.cumsum(kept, out=until[1:])
-    z = int(free.sum())
-    indptr = np.append(until[K.indptr[:-1][free]], until[-1])
-    return sp.csr_array((K.data[kept], number[K.indices[kept]], indptr), shape=(z, z))
+    number = np.cumsum(free, dtype=np.int32) - np.int32(1)
+    number[~free] = -1
+    z, n = int(free.sum()), len(free)
+    every = _kernels.Kept(K.indptr.astype(np.int32, copy=False), K.indices.astype(np.int32, copy=False), K.data)
+    worth = K.nnz > SHARED_ENTRIES
+    cuts = np.linspace(0, n, 1 + (number_of_threads() if worth else 1)).astype(np.int64).tolist()
+
+    def fill(kept: _kernels.Kept) -> None:
+        shared([partial(_kernels.keep_rows, every, number, kept, low, high) for low, high in pairwise(cuts)], worth)
+
+    ends = np.zeros(z + 1, dtype=np.int32)
+    fill(_kernels.Kept(ends, np.empty(0, dtype=np.int32), np.empty(0)))
+    np.cumsum(ends, out=ends)
+    found = _kernels.Kept(ends, np.empty(ends[-1], dtype=np.int32), np.empty(ends[-1]))
+    fill(found)
+    return sp.csr_array((found.data, found.indices, found.indptr), shape=(z, z))

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.cores import number_of_threads
+from signorini.crew import Crew, Job
 from signorini.fem.cyclic import cyclic_sides
 from signorini.fem.elasticity import elasticities, elasticity
-from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, mean_in_cells
+from signorini.fem.kinematics import Group, Kinematics, groups, kinematics, large, mean_in_cells, of_each
 from signorini.fem.links import linked_nodes
 from signorini.fem.space import Space, make_space
 from signorini.fem.thermal import temperatures, thermal_strain
@@ -190,16 +192,19 @@ def body_tensors(deformed: DeformedBodies) -> BodyTensors:
     """Stresses as of `body_stresses`, with the strains that belong to them, see `point_strains`; both in cells, too."""
     space, model = deformed.space, deformed.model
     every = list(groups(space, model))
-    stress = {id(group): deformed.stress(group) for group in every}
-    strain = {id(group): deformed.strain(group, stress[id(group)]) for group in every}
     width, in_cells = elasticities(model).shape[1], np.zeros((model.mesh.number_of_cells, 12))
-    for group in every:
-        for first, values in ((0, stress[id(group)]), (6, strain[id(group)])):
-            means = values.mean(axis=1)
-            in_cells[group.numbers, first : first + 6] = deformed.in_space(means, group.cells[:, 0])
+
+    def at_best(group: Group) -> tuple[Array, Array]:
+        stress = deformed.stress(group)
+        both = stress, deformed.strain(group, stress)
+        for first, values in zip((0, 6), both, strict=True):
+            in_cells[group.numbers, first : first + 6] = deformed.in_space(values.mean(axis=1), group.cells[:, 0])
+        return both
+
+    found = dict(zip(map(id, every), of_each(every, at_best), strict=True))
     at_nodes = [
-        nodal_averages(space, model, lambda group, values=values: values[id(group)], width, every)  # type: ignore[misc]
-        for values in (stress, strain)
+        nodal_averages(space, model, lambda group, which=which: found[id(group)][which], width, every)  # type: ignore[misc]
+        for which in (0, 1)
     ]
     return BodyTensors(
         stresses=[
@@ -258,12 +263,30 @@ def nodal_averages(
     """
     count = len(space.mesh.points)
     total, weight = np.zeros((len(model.bodies), count, components)), np.zeros((len(model.bodies), count))
-    for group in groups(space, model) if within is None else within:
+    every = list(groups(space, model)) if within is None else within
+    found: dict[int, tuple[Array, Array]] = {}
+
+    def find(i: int) -> None:
+        group = every[i]
         area = space.volumes_of(group.block)[group.index].sum(axis=1)[:, None]
+        found[i] = area, (group.block.to_nodes @ at_best(group)) * area[..., None]
+
+    def add(i: int) -> None:
+        group, (area, at_nodes) = every[i], found.pop(i)
         places = group.body[:, None] * count + group.cells
-        at_nodes = (group.block.to_nodes @ at_best(group)) * area[..., None]
         _add_at(weight.reshape(-1, 1), places, np.broadcast_to(area, places.shape)[..., None])
         _add_at(total.reshape(-1, components), places, at_nodes)
+
+    _ = space.volumes  # once, before several ask for them
+    with Crew(number_of_threads() if large(every) else 1) as crew:
+        # one group after the other is added, so that sums are the same whoever finds them
+        crew.finish(
+            [
+                job
+                for i in range(len(every))
+                for job in (Job(partial(find, i)), Job(partial(add, i), (2 * i, 2 * i - 1) if i else (0,)))
+            ]
+        )
     if model.cyclic_symmetries:
         _add_sectors_beside(space, model, (total, weight), scalars)
     nodes = [np.nonzero(own)[0] for own in weight]

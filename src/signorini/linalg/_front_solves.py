@@ -56,11 +56,12 @@ def forward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) ->
 
 
 @kernel(nogil=True)
-def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -> None:
+def backward(fronts: Fronts, begin: int, end: int, factor: Array, y: Array, work: Array, s: Scratch) -> None:
     """Overwrite the inside of y, (k, n) with one load per row, by ``L_ii^-T (y_i - L_ci^T y_c)``.
 
     Parameters
     ----------
+    begin, end : of some fronts alone, after all that receive what is left of one of them
     fronts, factor, y, work, s : see `forward`
     """
     columns, n = y.shape
@@ -68,7 +69,7 @@ def backward(fronts: Fronts, factor: Array, y: Array, work: Array, s: Scratch) -
         return
     rows = np.empty(len(work) // max(1, columns), np.int32)
     room = int(np.int64(work.ctypes.data))  # signed as other addresses are: a loop is compiled once for all
-    for t in range(len(fronts.parent) - 1, -1, -1):
+    for t in range(end - 1, begin - 1, -1):
         a, k, r = sizes(fronts, t)
         top = factor.ctypes.data + 8 * fronts.panel[t]
         own, below = StoredMatrix(top, k + r), StoredMatrix(top + 8 * k, k + r)

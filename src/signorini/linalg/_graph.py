@@ -54,29 +54,39 @@ class Elimination(NamedTuple):
     place: Int32Array
 
 
-@kernel()
-def quotient(graph: Graph, start: Int32Array, member: Int32Array, group: Int32Array) -> Graph:
-    """Merge the vertices of every group: the graph of the groups, without loops.
+@kernel(nogil=True)
+def quotient_rows(
+    graph: Graph, start: Int32Array, member: Int32Array, group: Int32Array, groups: tuple[int, int]
+) -> Graph:
+    """Merge the vertices of some groups that follow each other: their rows of the graph of the groups, without loops.
 
     Parameters
     ----------
     graph : of n vertices
-    start, member : the vertices of group g are ``member[start[g]:start[g + 1]]``
+    start, member : the vertices of the k-th of these groups are ``member[start[k]:start[k + 1]]``
     group : (n,) the group of every vertex
+    groups : the first of these groups, and how many there are of all
     """
-    indptr, indices = graph
-    count = len(start) - 1
-    mark = np.full(count, -1, np.int32)
+    (indptr, indices), (first, every), count = graph, groups, len(start) - 1
+    mark = np.full(every, -1, np.int32)
     rows = np.zeros(count + 1, np.int32)
     columns = np.empty(max(16, len(indices) // 4), np.int32)
     top = 0
-    for g in range(count):
-        mark[g] = g
-        for v in range(start[g], start[g + 1]):
-            for p in range(indptr[member[v]], indptr[member[v] + 1]):
+    for k in range(count):
+        mark[first + k] = k
+        begin, end = 0, 0
+        for v in range(start[k], start[k + 1]):
+            before, length = begin, end - begin
+            begin, end = indptr[member[v]], indptr[member[v] + 1]
+            same = end - begin == length
+            for p in range(length if same else 0):
+                same &= indices[before + p] == indices[begin + p]
+            if same:  # as unknowns of a node mostly have: nothing new
+                continue
+            for p in range(begin, end):
                 h = group[indices[p]]
-                if mark[h] != g:
-                    mark[h] = g
+                if mark[h] != k:
+                    mark[h] = k
                     if top == len(columns):
                         longer = np.empty(2 * top, np.int32)
                         for q in range(top):
@@ -84,7 +94,7 @@ def quotient(graph: Graph, start: Int32Array, member: Int32Array, group: Int32Ar
                         columns = longer
                     columns[top] = h
                     top += 1
-        rows[g + 1] = top
+        rows[k + 1] = top
     return Graph(rows, columns[:top].copy())
 
 

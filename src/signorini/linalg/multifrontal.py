@@ -12,7 +12,7 @@ Liu (1992), The multifrontal method for sparse matrix solution: theory and pract
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -20,19 +20,22 @@ import numpy as np
 from scipy import sparse
 
 from signorini.arrays import Array, Int32Array
+from signorini.blas_threads import one_thread
 from signorini.cores import number_of_threads
-from signorini.crew import Crew
+from signorini.crew import Crew, Job
 from signorini.errors import InputError
 from signorini.linalg import _front_products, _front_solves, _fronts
 from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
-from signorini.linalg.plan import SHARED_WORK, Plan, Plans, analyse
+from signorini.linalg.plan import Plan, Plans, analyse
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.shared_fronts import factorise_parts
 from signorini.linalg.system import System, as_columns, like
-from signorini.linalg.threads import one_thread
 from signorini.memory import give_memory_back
+
+SHARED_SOLVE = 2e7
+"""Entries of the factor times loads from which threads share a solve: tens of milliseconds of one thread."""
 
 _LOADS_AT_ONCE = 16  # loads that one thread solves for: the factor is read once for all of them
 
@@ -66,7 +69,7 @@ class MultifrontalFactorisation:
         columns = as_columns(f, self.n)
         if columns.any():
             y = np.ascontiguousarray(columns.T[:, self.plan.order])
-            self._solve(_front_solves.forward, y)
+            self._forward(y)
         else:
             y = np.zeros(columns.T.shape)
         g = np.empty((self.m, len(y)))
@@ -75,7 +78,7 @@ class MultifrontalFactorisation:
 
     def _expand(self, f: Array, y: Array, u_c: Array) -> Array:
         y[:, self.n - self.m :] = as_columns(u_c, self.m)[self.slots].T
-        self._solve(_front_solves.backward, y)
+        self._backward(y)
         u = np.empty((self.n, len(y)))
         u[self.plan.order] = y.T
         return like(f, u)
@@ -107,15 +110,37 @@ class MultifrontalFactorisation:
             raise InputError("the pattern has an entry where the factor has none; expected those of the matrix")
         return rows.data
 
-    def _solve(self, half: Callable[..., None], y: Array) -> None:
-        """Solve for loads in the rows of y, some at a time: as many whatever number of threads shares them."""
+    def _forward(self, y: Array) -> None:
+        """Eliminate the inside of the loads in the rows of y."""
+        self._solve([Job(partial(self._halve, _front_solves.forward, some, ())) for some in _some_at_a_time(y)], y)
 
-        def solve(some: Array) -> None:
-            half(self.plan.fronts, self.factor, some, np.empty(self.plan.widest * len(some)), scratch())
+    def _backward(self, y: Array) -> None:
+        """Solve for the inside of the rows of y: front after front, and branches side by side once those above are."""
+        above = [(part.begin, part.end) for part in reversed(self.plan.parts) if not part.branch]
+        branches = [(part.begin, part.end) for part in self.plan.parts if part.branch]
+        jobs: list[Job] = []
+        for some in _some_at_a_time(y):
+            first = len(jobs)
+            jobs.append(Job(partial(self._halve, _front_solves.backward, some, *above)))
+            jobs += [Job(partial(self._halve, _front_solves.backward, some, fronts), (first,)) for fronts in branches]
+        self._solve(jobs, y)
 
-        work = float(self.plan.nnz_factor) * len(y)
-        with one_thread(), Crew(number_of_threads() if work > SHARED_WORK and len(y) > _LOADS_AT_ONCE else 1) as crew:
-            crew.each([partial(solve, y[first : first + _LOADS_AT_ONCE]) for first in range(0, len(y), _LOADS_AT_ONCE)])
+    def _halve(self, half: Callable[..., None], y: Array, *fronts: tuple[int, ...]) -> None:
+        """One half of a solve for the rows of y, of ranges of fronts."""
+        work = np.empty(self.plan.widest * len(y))
+        for some in fronts:
+            half(self.plan.fronts, *some, self.factor, y, work, scratch())
+
+    def _solve(self, jobs: Sequence[Job], y: Array) -> None:
+        """Do what solves for the rows of y: the same jobs whatever number of threads shares them."""
+        worth = self.plan.nnz_factor * len(y) > SHARED_SOLVE
+        with one_thread(), Crew(number_of_threads() if worth and len(jobs) > 1 else 1) as crew:
+            crew.finish(jobs)
+
+
+def _some_at_a_time(y: Array) -> Iterator[Array]:
+    """Rows of y that one thread solves for at once."""
+    return (y[first : first + _LOADS_AT_ONCE] for first in range(0, len(y), _LOADS_AT_ONCE))
 
 
 def factorise(system: System, plans: Plans | None = None) -> MultifrontalFactorisation:

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
@@ -11,8 +13,13 @@ from numpy.typing import ArrayLike
 from scipy import sparse
 
 from signorini.arrays import Array, BoolArray, Int32Array, IntArray
+from signorini.cores import number_of_threads
+from signorini.crew import shared
 from signorini.errors import InputError
-from signorini.linalg._graph import Graph, Rows, both_ways, quotient
+from signorini.linalg._graph import Graph, Rows, both_ways, quotient_rows
+
+SHARED_ENTRIES = 1_000_000
+"""Entries of a matrix from which threads share the graph of its nodes: ten milliseconds of one thread."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,10 +168,28 @@ def node_graph(system: System) -> NodeGraph:
     start = np.append(np.flatnonzero(first), system.n).astype(np.int32)
     group = np.empty(system.n, dtype=np.int32)
     group[member] = np.cumsum(first) - 1
-    edges = both_ways(quotient(system.rows.graph, start, member, group))
+    edges = both_ways(_quotient(system.rows.graph, start, member, group))
     interior = int(np.searchsorted(start, system.n - system.m))
     points = None if system.points is None else system.points[system.nodes[member[start[:-1]]]]
     return NodeGraph(start=start, member=member, interior=interior, edges=edges, points=points)
+
+
+def _quotient(graph: Graph, start: Int32Array, member: Int32Array, group: Int32Array) -> Graph:
+    """The graph of groups of vertices, see `quotient_rows`; threads share the groups of a large one."""
+    count = len(start) - 1
+    worth = len(graph.indices) > SHARED_ENTRIES
+    cuts = np.linspace(0, count, 1 + (number_of_threads() if worth else 1)).astype(np.int64).tolist()
+    parts = shared(
+        [
+            partial(quotient_rows, graph, start[low : high + 1], member, group, (low, count))
+            for low, high in pairwise(cuts)
+        ],
+        worth,
+    )
+    if len(parts) == 1:
+        return parts[0]
+    counts = np.concatenate([np.diff(part.indptr) for part in parts])
+    return Graph(np.append(0, np.cumsum(counts)).astype(np.int32), np.concatenate([part.indices for part in parts]))
 
 
 def bordered(K: Any, B: sparse.csr_array) -> Any:

@@ -15,9 +15,9 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from typing import Any, Protocol
 
+from signorini.blas_threads import one_thread
 from signorini.cores import threads
 from signorini.errors import SignoriniError
-from signorini.linalg.threads import one_thread
 from signorini.study.problem import Study
 from signorini.study.row import StudyRow
 from signorini.study.row_solver import RowSolver

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.blas_threads import one_thread
 from signorini.checks import choice, whole
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.space import Space
 from signorini.linalg.definite import ROUNDOFF
-from signorini.linalg.threads import one_thread
 from signorini.model.model import Model
 from signorini.model.modes import JOINTS, MOST_MODES, STUCK
 from signorini.outcome import Outcome
