@@ -2,15 +2,16 @@
 """What threads share of a factorisation: the same to the last bit for any number of them, and right."""
 
 import threading
+import time
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 
-from signorini import cores
+from signorini import blas_threads, cores
 from signorini.cli import main
-from signorini.crew import Crew, Job
+from signorini.crew import Crew, Job, shared
 from signorini.errors import InputError
 from signorini.linalg import NotPositiveDefinite, factorise, multifrontal, plan, schedule
 from tests.helpers.lattices import dense_schur, lattice, together
@@ -35,13 +36,13 @@ PROBLEMS = {
 
 
 @pytest.fixture
-def shared(monkeypatch):
+def as_large(monkeypatch):
     """Small models are shared as large ones are, in tiles as small as they are."""
     monkeypatch.setattr(plan, "SHARED_WORK", 3e3)
     monkeypatch.setattr(schedule, "TILE", 7)
 
 
-@pytest.mark.usefixtures("shared")
+@pytest.mark.usefixtures("as_large")
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_every_number_of_threads_gives_the_same_bits(name):
     p = PROBLEMS[name]
@@ -63,7 +64,7 @@ def test_every_number_of_threads_gives_the_same_bits(name):
     assert np.abs((p.K @ moved - load)[inside]).max() <= 1e-9 * np.abs(load).max()
 
 
-@pytest.mark.usefixtures("shared")
+@pytest.mark.usefixtures("as_large")
 @pytest.mark.parametrize("name", ["plane", "no interface"])
 @pytest.mark.parametrize("several", [50, 1])
 def test_threads_share_solves_with_the_same_bits(name, several, monkeypatch):
@@ -102,7 +103,7 @@ def test_threads_share_solves_with_the_same_bits(name, several, monkeypatch):
         assert np.abs(found[0][1][:, column] - alone).max() <= 1e-12 * np.abs(alone).max()
 
 
-@pytest.mark.usefixtures("shared")
+@pytest.mark.usefixtures("as_large")
 def test_parts_hold_every_front_once():
     p = PROBLEMS["space"]
     parts = factorise(p.K, p.interface, nodes=p.nodes, backend="multifrontal").plan.parts
@@ -112,7 +113,7 @@ def test_parts_hold_every_front_once():
     assert all(part.end - part.begin == 1 for part in parts if not part.branch)
 
 
-@pytest.mark.usefixtures("shared")
+@pytest.mark.usefixtures("as_large")
 @pytest.mark.parametrize("number", [1, 3])
 @pytest.mark.parametrize("place", [0.02, 0.6, 0.98])
 def test_an_indefinite_matrix_names_the_same_unknown(number, place):
@@ -149,7 +150,32 @@ def test_jobs_wait_for_what_they_need_and_the_first_failure_counts(number):
     assert done == list(range(20))
 
 
-@pytest.mark.usefixtures("shared")
+@pytest.mark.parametrize("number", [1, 2, 3])
+def test_what_is_shared_inside_goes_to_the_same_threads(number):
+    """Never do more work than were asked for, BLAS's included, and inside the same number is asked for."""
+    working, most, lock = 0, 0, threading.Lock()
+
+    def work(value: int) -> tuple[int, int, bool]:
+        nonlocal working, most
+        with lock:
+            working += 1
+            most = max(most, working)
+        time.sleep(0.002)
+        with lock:
+            working -= 1
+        return value, cores.number_of_threads(), number == 1 or {get() for _, get in blas_threads._found} <= {1}
+
+    def inside(value: int) -> list[tuple[int, int, bool]]:
+        return shared([partial(work, 10 * value + i) for i in range(7)], worth=True)
+
+    with cores.threads(number):
+        found = shared([partial(inside, value) for value in range(5)], worth=True)
+    assert found == [[(10 * value + i, number, True) for i in range(7)] for value in range(5)]
+    assert most == number
+    assert threading.active_count() == 1
+
+
+@pytest.mark.usefixtures("as_large")
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_tasks_hold_all_the_work_and_need_earlier_ones(name):
     p = PROBLEMS[name]

@@ -65,7 +65,7 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
     points = np.zeros((1, 2))
     points.flags.writeable = False  # as meshes keep them
     laws = _kernels.Laws(np.zeros((1, 3), np.uint32), square, real, 2)
-    kept = _kernels.Kept(small, small, real)
+    kept = _kernels.MatrixRows(small, small, real)
     pattern = _kernels.SparsityPattern(large, small, real)
     return [
         (felt_stiffness, (small, small, real, small, small, real, 1)),

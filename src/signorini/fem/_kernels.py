@@ -88,7 +88,7 @@ def unknown_pattern(rows: IntArray, columns: Int32Array, d: int) -> tuple[Int32A
     return indptr, indices
 
 
-class Kept(NamedTuple):
+class MatrixRows(NamedTuple):
     """A sparse matrix by rows, or what is kept of it."""
 
     indptr: Int32Array
@@ -97,7 +97,7 @@ class Kept(NamedTuple):
 
 
 @kernel(nogil=True)
-def keep_rows(every: Kept, number: Int32Array, kept: Kept, low: int, high: int) -> None:
+def keep_rows(every: MatrixRows, number: Int32Array, kept: MatrixRows, low: int, high: int) -> None:
     """Keep rows and columns of a matrix: those of a range of its rows; with no room for entries, count them.
 
     Parameters

@@ -131,16 +131,16 @@ def _of_free(K: sp.csr_array, free: BoolArray) -> sp.csr_array:
     number = np.cumsum(free, dtype=np.int32) - np.int32(1)
     number[~free] = -1
     z, n = int(free.sum()), len(free)
-    every = _kernels.Kept(K.indptr.astype(np.int32, copy=False), K.indices.astype(np.int32, copy=False), K.data)
+    every = _kernels.MatrixRows(K.indptr.astype(np.int32, copy=False), K.indices.astype(np.int32, copy=False), K.data)
     worth = K.nnz > SHARED_ENTRIES
     cuts = np.linspace(0, n, 1 + (number_of_threads() if worth else 1)).astype(np.int64).tolist()
 
-    def fill(kept: _kernels.Kept) -> None:
+    def fill(kept: _kernels.MatrixRows) -> None:
         shared([partial(_kernels.keep_rows, every, number, kept, low, high) for low, high in pairwise(cuts)], worth)
 
     ends = np.zeros(z + 1, dtype=np.int32)
-    fill(_kernels.Kept(ends, np.empty(0, dtype=np.int32), np.empty(0)))
+    fill(_kernels.MatrixRows(ends, np.empty(0, dtype=np.int32), np.empty(0)))
     np.cumsum(ends, out=ends)
-    found = _kernels.Kept(ends, np.empty(ends[-1], dtype=np.int32), np.empty(ends[-1]))
+    found = _kernels.MatrixRows(ends, np.empty(ends[-1], dtype=np.int32), np.empty(ends[-1]))
     fill(found)
     return sp.csr_array((found.data, found.indices, found.indptr), shape=(z, z))

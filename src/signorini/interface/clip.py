@@ -186,7 +186,7 @@ def _height(piece: Array, at: Array, direction: Array, normal: Array) -> float:
     return height / cosine
 
 
-@kernel()
+@kernel(nogil=True)
 def overlap_areas(first: Array, second: Array, normals: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
     """Area of the common part of pairs of pieces, and the distance from the first to the second over its centroid.
 

@@ -154,7 +154,7 @@ def _gather(pairs: PiecePairs, k: int, rule: Rule, sight: Sight, points: _Points
     return q
 
 
-@kernel()
+@kernel(nogil=True)
 def integrate(pairs: PiecePairs, rule: Rule, sums: Sums) -> None:
     """Add up integrals over the common parts of pairs of pieces.
 
@@ -186,7 +186,7 @@ def integrate(pairs: PiecePairs, rule: Rule, sums: Sums) -> None:
                         gives[e, f, d] += force * M[q, f]
 
 
-@kernel()
+@kernel(nogil=True)
 def widen(pairs: PiecePairs, own: Smooth, other: Smooth, rule: Rule, over: Array) -> None:
     """Add up ``int N (g - g_faces)``: by how much gaps between surfaces, interpolated as displacements are, are larger
     than those of the faces that stand for them.
@@ -223,7 +223,7 @@ def widen(pairs: PiecePairs, own: Smooth, other: Smooth, rule: Rule, over: Array
                 over[i, e] += hats[q, e] * across * (lean * gap - distance)
 
 
-@kernel()
+@kernel(nogil=True)
 def spread_gaps(pairs: PiecePairs, own: Smooth, other: Smooth, ends: Array, low: Array, high: Array) -> None:
     """Distances to the other side at the corners of faces, and the smallest and largest on each of them.
 

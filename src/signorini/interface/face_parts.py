@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+from functools import partial
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.cores import number_of_threads
+from signorini.crew import shared
 from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.facets import facet_pieces, gauss_rule
@@ -19,6 +23,9 @@ from signorini.interface.facing import near_pairs, nearest_layers, piece_normals
 from signorini.interface.fitting import smooth_surfaces
 from signorini.interface.smooth import Smooth
 from signorini.interface.tilt import normals_between, turning_angles
+
+SHARED_PAIRS = 1000
+"""Pairs of pieces from which threads share the integrals over them: ten milliseconds of one thread and more."""
 
 _DEGREE = {3: 1, 4: 2, 6: 2, 8: 3, 9: 4}  # of the shape functions, by nodes of a face
 _GAP_POINTS = 3  # of Gauss a direction for gaps between surfaces: exact for hats times parabolas
@@ -38,6 +45,24 @@ class _Kind(NamedTuple):
     def each(self) -> int:
         """Pieces of a face."""
         return len(self.pieces.places)
+
+
+class _Sums(NamedTuple):
+    """What is added up over the pairs of m faces with c corners.
+
+    Attributes
+    ----------
+    mass, own : see `signorini.interface.face_integrals.Sums`
+    over : (m, c), see `signorini.interface.face_integrals.widen`
+    ends, low, high : (m, c), (m,) and (m,), see `signorini.interface.face_integrals.spread_gaps`
+    """
+
+    mass: Array
+    own: Array
+    over: Array
+    ends: Array
+    low: Array
+    high: Array
 
 
 class _Seen(NamedTuple):
@@ -81,27 +106,48 @@ def _parts_of(one: _Kind, others: list[_Kind], share: float, search: float) -> C
         seen = _opposite(one, others, near, normals, search)
     block = one.block
     m, c = block.corner_nodes.shape
-    mass, own, over = np.zeros((m, c, c)), np.zeros((m, c, block.count, 3)), np.zeros((m, c))
-    ends, low, high = np.full((m, c), np.inf), np.full(m, np.inf), np.full(m, -np.inf)
+    sums = _Sums(
+        mass=np.zeros((m, c, c)),
+        own=np.zeros((m, c, block.count, 3)),
+        over=np.zeros((m, c)),
+        ends=np.full((m, c), np.inf),
+        low=np.full(m, np.inf),
+        high=np.full(m, -np.inf),
+    )
     opposite = []
-    for other, i, j, _ in seen:
-        pairs = PiecePairs(one.pieces, other.pieces, normals, i, j)
-        spread_gaps(pairs, one.smooth, other.smooth, ends, low, high)
-        gives = np.zeros((len(i), c, other.block.count, 3))
-        integrate(pairs, _rule(_points(block, other.block)), Sums(mass, own, gives))
-        if one.smooth.curved or other.smooth.curved:
-            widen(pairs, one.smooth, other.smooth, _rule(_GAP_POINTS), over)
-        opposite.append(Opposite(first=i // one.each, nodes=other.block.facets[j // other.each], other=gives))
-    met = low <= high
+    for each in seen:
+        face, other = each.i // one.each, each.other
+        gives = np.zeros((len(face), c, other.block.count, 3))
+        # a thread has all pairs of its faces, in their order: sums are the same whoever forms them
+        shared([partial(_add, one, each, normals, sums, gives, own) for own in _cuts(face)], len(face) > SHARED_PAIRS)
+        opposite.append(Opposite(first=face, nodes=other.block.facets[each.j // other.each], other=gives))
+    met = sums.low <= sums.high
     return CommonParts(
         block=block,
-        mass=mass,
-        own=own,
-        over=over,
+        mass=sums.mass,
+        own=sums.own,
+        over=sums.over,
         opposite=tuple(opposite),
-        gaps=FacetGaps(corners=block.corner_nodes[met], ends=ends[met], low=low[met], high=high[met]),
+        gaps=FacetGaps(corners=block.corner_nodes[met], ends=sums.ends[met], low=sums.low[met], high=sums.high[met]),
         curved=any(kind.smooth.curved for kind in (one, *others)),
     )
+
+
+def _cuts(face: IntArray) -> list[slice]:
+    """Ranges of pairs, of whole faces each, for as many threads as there are; one of few pairs."""
+    parts = number_of_threads() if len(face) > SHARED_PAIRS else 1
+    inner = np.linspace(0, len(face), parts + 1).astype(np.int64)[1:-1]
+    return [slice(low, high) for low, high in pairwise([0, *np.searchsorted(face, face[inner]).tolist(), len(face)])]
+
+
+def _add(one: _Kind, seen: _Seen, normals: Array, sums: _Sums, gives: Array, own: slice) -> None:
+    """Add what a range of pairs adds, and write what they give to the mortar side."""
+    other, smooth = seen.other, (one.smooth, seen.other.smooth)
+    pairs = PiecePairs(one.pieces, other.pieces, normals, seen.i[own], seen.j[own])
+    spread_gaps(pairs, *smooth, sums.ends, sums.low, sums.high)
+    integrate(pairs, _rule(_points(one.block, other.block)), Sums(sums.mass, sums.own, gives[own]))
+    if any(surface.curved for surface in smooth):
+        widen(pairs, *smooth, _rule(_GAP_POINTS), sums.over)
 
 
 def _opposite(
@@ -110,7 +156,7 @@ def _opposite(
     """Pairs of pieces that are opposite each other along normals (p, 3), by kinds of the mortar side."""
     first = one.pieces.corners
     found = [
-        (other, i, j, *overlap_areas(first, other.pieces.corners, normals, i, j))
+        (other, i, j, *_overlaps(first, other.pieces.corners, normals, i, j))
         for other, (i, j) in zip(others, near, strict=True)
     ]
     i, area, distance = (np.concatenate([part[k] for part in found]) for k in (1, 3, 4))
@@ -123,6 +169,13 @@ def _opposite(
     return [
         _Seen(other, i[kept], j[kept], area[kept]) for (other, i, j, area, _), kept in zip(found, by_kind, strict=True)
     ]
+
+
+def _overlaps(first: Array, second: Array, normals: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
+    """Common areas and distances of pairs, see `overlap_areas`."""
+    calls = [partial(overlap_areas, first, second, normals, i[own], j[own]) for own in _cuts(i)]
+    area, distance = zip(*shared(calls, len(i) > SHARED_PAIRS), strict=True)
+    return np.concatenate(area), np.concatenate(distance)
 
 
 def _between(one: _Kind, seen: list[_Seen], share: float) -> Array:

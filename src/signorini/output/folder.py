@@ -16,8 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from signorini.clock import Clock
-from signorini.cores import number_of_threads
-from signorini.crew import Crew
+from signorini.crew import shared
 from signorini.distributed.ranks import ON_RANKS
 from signorini.errors import InputError
 from signorini.model.prints import Prints
@@ -286,10 +285,9 @@ class Publisher:
             from signorini.output.rank_files import fields_on_ranks
 
             self._ranks = fields_on_ranks(history)
+        parts = [lambda: self._write_fields(history, aside), lambda: self._write_archive(history, aside)]
         # ranks hear from one thread
-        with Crew(min(number_of_threads(), 2 if self._ranks is None else 1)) as crew:
-            parts = [lambda: self._write_fields(history, aside), lambda: self._write_archive(history, aside)]
-            return [name for names in crew.each(parts) for name in names]
+        return [name for names in shared(parts, worth=self._ranks is None) for name in names]
 
     def _write_archive(self, history: History, aside: Path) -> list[str]:
         """The whole history; its name."""

@@ -133,6 +133,7 @@ def _fatigue(model: Model, result: FatigueResult) -> dict[str, Any]:
 
 def _step(model: Model, step: StepResult) -> dict[str, Any]:
     """One step."""
+    labels = model.mesh.labels
     return {
         "name": step.name,
         "load_factor": step.load_factor,
@@ -140,9 +141,7 @@ def _step(model: Model, step: StepResult) -> dict[str, Any]:
         "path": step.path,
         "increments": step.increments,
         "events": len(step.events),
-        "event_list": [
-            asdict(event) | {"nodes": model.mesh.labels[list(event.nodes)].tolist()} for event in step.events
-        ],
+        "event_list": [asdict(event) | {"nodes": labels[list(event.nodes)].tolist()} for event in step.events],
         "method": ", ".join(step.methods),
         "notes": list(step.notes),
         "reactions": {name: _list(force) for name, force in step.reactions.items()},
