@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from contextvars import ContextVar, copy_context
 from functools import partial
+from itertools import pairwise
 from threading import Condition
 from types import TracebackType
 from typing import NamedTuple, Self, TypeVar
@@ -110,6 +111,22 @@ def shared(calls: Sequence[Callable[[], T]], worth: bool) -> list[T]:
     """
     with Crew(number_of_threads() if worth and len(calls) > 1 else 1) as crew:
         return crew.each(calls)
+
+
+def by_ranges(call: Callable[[int, int], T], count: int, worth: bool) -> list[T]:
+    """What a function gives of ranges of numbers below a count: one a thread, which must not show in what they are.
+
+    >>> by_ranges(lambda low, high: (low, high), 5, worth=False)
+    [(0, 5)]
+
+    Parameters
+    ----------
+    call : of the first number of a range and of that behind its last; lets go of the interpreter
+    count, worth : how many numbers; see `shared`
+    """
+    parts = number_of_threads() if worth else 1
+    cuts = [count * part // parts for part in range(parts + 1)]
+    return shared([partial(call, low, high) for low, high in pairwise(cuts)], worth)
 
 
 class _Jobs:

@@ -67,3 +67,18 @@ def test_bodies_do_not_smooth_each_other():
     mesh = sg.join({"left": left, "right": sg.Mesh(**{**vars(left), "points": left.points + [1.0, 0.0]})})
     share = np.repeat([[1.0], [2.0]], len(left.points), axis=0)
     assert found(mesh, lambda x: share * x).relative < 1e-8
+
+
+def test_every_number_of_threads_gives_the_same_bits(monkeypatch):
+    monkeypatch.setattr(kinematics, "CELLS_AT_ONCE", 16)
+    monkeypatch.setattr(recovery, "_SHARED_CORNERS", 0)
+    model = cubes(4, 3)
+    space = space_of(model)
+    deformed = DeformedBodies.of(space, model, np.random.default_rng(4).standard_normal(model.mesh.points.shape))
+    found = []
+    for number in (1, 2, 3):
+        with cores.threads(number):
+            error = StressRecovery(space, model).error(deformed)
+        found.append([error.squares, error.norm_square, *(values for _, values in error.nodal)])
+    for other in found[1:]:
+        assert all(np.array_equal(one, two) for one, two in zip(found[0], other, strict=True))

@@ -76,7 +76,7 @@ def wider_patches(
     return starts, found
 
 
-@kernel()
+@kernel(nogil=True)
 def fit(
     patches: tuple[IntArray, IntArray],
     points: tuple[IntArray, Array, Array],
@@ -143,7 +143,7 @@ def fit(
         found[v] = right
 
 
-@kernel()
+@kernel(nogil=True)
 def add_work(
     cells: tuple[IntArray, Array, Array],
     shapes: tuple[Array, Array],

@@ -5,15 +5,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from signorini.accuracy._fits import add_work, cells_at_corners, fit, wider_patches
 from signorini.arrays import Array, IntArray, among
+from signorini.crew import by_ranges, shared
 from signorini.fem.elasticity import elasticity
 from signorini.fem.jacobian import determinants, jacobians, places
-from signorini.fem.kinematics import groups
+from signorini.fem.kinematics import groups, large, of_each
 from signorini.fem.measure import measure
 from signorini.fem.space import Block, Space, shapes_in_cells
 from signorini.fem.stress import DeformedBodies
@@ -32,6 +33,9 @@ _IN_SPACE = 6
 
 _LAYERS = 3
 """Of cells around a corner that a patch takes more, at most: strips of one cell have no more to offer."""
+
+_SHARED_CORNERS = 2000
+"""Corners from which threads share what is fitted around them: ten milliseconds of one thread."""
 
 _REGULAR = 1e-12
 """Of the trace of a patch's normal equations: what is added where points lie on a line or in a plane."""
@@ -104,8 +108,7 @@ class StressRecovery:
         """
         model = self._model
         stresses: list[list[Array]] = [[] for _ in model.bodies]
-        for group, owners in zip(self._groups, self._owners, strict=True):
-            stress = deformed.stress(group)
+        for owners, stress in zip(self._owners, of_each(self._groups, deformed.stress), strict=True):
             for i, own in owners:
                 stresses[i].append(np.ascontiguousarray(stress if len(owners) == 1 else stress[own]))
         squares, total, nodal = np.zeros(model.mesh.number_of_cells), 0.0, []
@@ -113,8 +116,11 @@ class StressRecovery:
             kind = "3d" if own_stresses[0].shape[2] == _IN_SPACE else "plane strain"
             compliance = np.asarray(np.linalg.inv(elasticity(body.material, kind)), float)
             fitted = patches.fitted(own_stresses)
-            for part, rows, stress in zip(patches.parts, patches.corners, own_stresses, strict=True):
-                work = part.work(rows, stress, fitted, compliance, model)
+            works = [
+                partial(part.work, rows, stress, fitted, compliance, model)
+                for part, rows, stress in zip(patches.parts, patches.corners, own_stresses, strict=True)
+            ]
+            for part, work in zip(patches.parts, shared(works, large(self._groups)), strict=True):
                 squares[part.numbers] = work[:, 0]
                 total += float(work[:, 1].sum())
             nodal.append((patches.nodes, fitted[2][:, 0]))
@@ -250,7 +256,13 @@ class _Patches:
         """
         values = np.concatenate([stress.reshape(-1, stress.shape[2]) for stress in stresses])
         found = np.empty((len(self.nodes), self.monomials, values.shape[1]))
-        fit(self.around, (*self.points, values), self.centres, self.sizes, _REGULAR, found)
+        (starts, cells), points = self.around, (*self.points, values)
+
+        def some(low: int, high: int) -> None:
+            patches = starts[low : high + 1], cells
+            fit(patches, points, self.centres[low:high], self.sizes[low:high], _REGULAR, found[low:high])
+
+        by_ranges(some, len(found), worth=len(found) > _SHARED_CORNERS)
         return self.centres, self.sizes, found
 
 

@@ -5,14 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, selection
-from signorini.cores import number_of_threads
-from signorini.crew import shared
+from signorini.crew import by_ranges
 from signorini.fem import _kernels
 from signorini.fem.assembly import Cells
 from signorini.fem.assembly import stiffness as assemble
@@ -130,13 +128,11 @@ def _of_free(K: sp.csr_array, free: BoolArray) -> sp.csr_array:
     """Rows and columns of K of dofs that are free."""
     number = np.cumsum(free, dtype=np.int32) - np.int32(1)
     number[~free] = -1
-    z, n = int(free.sum()), len(free)
+    z = int(free.sum())
     every = _kernels.MatrixRows(K.indptr.astype(np.int32, copy=False), K.indices.astype(np.int32, copy=False), K.data)
-    worth = K.nnz > SHARED_ENTRIES
-    cuts = np.linspace(0, n, 1 + (number_of_threads() if worth else 1)).astype(np.int64).tolist()
 
     def fill(kept: _kernels.MatrixRows) -> None:
-        shared([partial(_kernels.keep_rows, every, number, kept, low, high) for low, high in pairwise(cuts)], worth)
+        by_ranges(partial(_kernels.keep_rows, every, number, kept), len(free), worth=K.nnz > SHARED_ENTRIES)
 
     ends = np.zeros(z + 1, dtype=np.int32)
     fill(_kernels.MatrixRows(ends, np.empty(0, dtype=np.int32), np.empty(0)))

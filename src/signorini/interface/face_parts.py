@@ -4,14 +4,12 @@
 from __future__ import annotations
 
 from functools import partial
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.cores import number_of_threads
-from signorini.crew import shared
+from signorini.crew import by_ranges
 from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.facets import facet_pieces, gauss_rule
@@ -119,7 +117,7 @@ def _parts_of(one: _Kind, others: list[_Kind], share: float, search: float) -> C
         face, other = each.i // one.each, each.other
         gives = np.zeros((len(face), c, other.block.count, 3))
         # a thread has all pairs of its faces, in their order: sums are the same whoever forms them
-        shared([partial(_add, one, each, normals, sums, gives, own) for own in _cuts(face)], len(face) > SHARED_PAIRS)
+        by_ranges(partial(_add, one, each, normals, sums, gives), m, worth=len(face) > SHARED_PAIRS)
         opposite.append(Opposite(first=face, nodes=other.block.facets[each.j // other.each], other=gives))
     met = sums.low <= sums.high
     return CommonParts(
@@ -133,16 +131,10 @@ def _parts_of(one: _Kind, others: list[_Kind], share: float, search: float) -> C
     )
 
 
-def _cuts(face: IntArray) -> list[slice]:
-    """Ranges of pairs, of whole faces each, for as many threads as there are; one of few pairs."""
-    parts = number_of_threads() if len(face) > SHARED_PAIRS else 1
-    inner = np.linspace(0, len(face), parts + 1).astype(np.int64)[1:-1]
-    return [slice(low, high) for low, high in pairwise([0, *np.searchsorted(face, face[inner]).tolist(), len(face)])]
-
-
-def _add(one: _Kind, seen: _Seen, normals: Array, sums: _Sums, gives: Array, own: slice) -> None:
-    """Add what a range of pairs adds, and write what they give to the mortar side."""
+def _add(one: _Kind, seen: _Seen, normals: Array, sums: _Sums, gives: Array, low: int, high: int) -> None:
+    """Add what the pairs of a range of faces add, and write what they give to the mortar side."""
     other, smooth = seen.other, (one.smooth, seen.other.smooth)
+    own = slice(*np.searchsorted(seen.i, (low * one.each, high * one.each)).tolist())
     pairs = PiecePairs(one.pieces, other.pieces, normals, seen.i[own], seen.j[own])
     spread_gaps(pairs, *smooth, sums.ends, sums.low, sums.high)
     integrate(pairs, _rule(_points(one.block, other.block)), Sums(sums.mass, sums.own, gives[own]))
@@ -173,8 +165,11 @@ def _opposite(
 
 def _overlaps(first: Array, second: Array, normals: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
     """Common areas and distances of pairs, see `overlap_areas`."""
-    calls = [partial(overlap_areas, first, second, normals, i[own], j[own]) for own in _cuts(i)]
-    area, distance = zip(*shared(calls, len(i) > SHARED_PAIRS), strict=True)
+
+    def some(low: int, high: int) -> tuple[Array, Array]:
+        return overlap_areas(first, second, normals, i[low:high], j[low:high])
+
+    area, distance = zip(*by_ranges(some, len(i), worth=len(i) > SHARED_PAIRS), strict=True)
     return np.concatenate(area), np.concatenate(distance)
 
 

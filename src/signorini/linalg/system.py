@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
-from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
@@ -13,8 +11,7 @@ from numpy.typing import ArrayLike
 from scipy import sparse
 
 from signorini.arrays import Array, BoolArray, Int32Array, IntArray
-from signorini.cores import number_of_threads
-from signorini.crew import shared
+from signorini.crew import by_ranges
 from signorini.errors import InputError
 from signorini.linalg._graph import Graph, Rows, both_ways, quotient_rows
 
@@ -177,15 +174,11 @@ def node_graph(system: System) -> NodeGraph:
 def _quotient(graph: Graph, start: Int32Array, member: Int32Array, group: Int32Array) -> Graph:
     """The graph of groups of vertices, see `quotient_rows`; threads share the groups of a large one."""
     count = len(start) - 1
-    worth = len(graph.indices) > SHARED_ENTRIES
-    cuts = np.linspace(0, count, 1 + (number_of_threads() if worth else 1)).astype(np.int64).tolist()
-    parts = shared(
-        [
-            partial(quotient_rows, graph, start[low : high + 1], member, group, (low, count))
-            for low, high in pairwise(cuts)
-        ],
-        worth,
-    )
+
+    def rows(low: int, high: int) -> Graph:
+        return quotient_rows(graph, start[low : high + 1], member, group, (low, count))
+
+    parts = by_ranges(rows, count, worth=len(graph.indices) > SHARED_ENTRIES)
     if len(parts) == 1:
         return parts[0]
     counts = np.concatenate([np.diff(part.indptr) for part in parts])
