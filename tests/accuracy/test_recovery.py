@@ -4,9 +4,13 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini import cores
+from signorini.accuracy import recovery
 from signorini.accuracy.recovery import StressRecovery
+from signorini.fem import kinematics
 from signorini.fem.space import make_space
-from signorini.fem.stress import DeformedBodies
+from signorini.fem.stress import DeformedBodies, space_of
+from signorini.gallery.cubes import cubes
 from signorini.meshing.solid import box
 
 STEEL = sg.Elastic(E=200.0, nu=0.3)

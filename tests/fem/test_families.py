@@ -10,6 +10,7 @@ from skfem.models.elasticity import linear_elasticity
 
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
+from signorini.fem.jacobian import jacobians
 from signorini.fem.loads import nodal_loads
 from signorini.fem.measure import facet_areas
 from signorini.fem.space import make_space
@@ -159,8 +160,9 @@ def test_quadratic_disks_are_round(family):
         share = 0.25 if make is quarter_disk else 0.5
         space = make_space(mesh)
         assert sum(v.sum() for v in space.volumes) == pytest.approx(share * np.pi * 64.0, rel=5e-4)
-        for block_, jacobians in zip(space.blocks, space.jacobians, strict=True):
-            assert np.linalg.det(jacobians).min() > 0, block_.family
+        for block in space.blocks:
+            bent = jacobians(mesh.points[block.cells], block.gradients)
+            assert np.linalg.det(bent).min() > 0, block.family
         linear = make(radius=8.0, contact_length=4.0, contact_spacing=0.5, cells=family.rstrip("689"))
         order2 = make(radius=8.0, contact_length=4.0, contact_spacing=0.5, cells=family.rstrip("689"), order=2)
         if family != "quad9":

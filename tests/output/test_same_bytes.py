@@ -12,7 +12,7 @@ import pytest
 import signorini as sg
 from signorini import blas_threads, cores
 from signorini.cli import main
-from signorini.fem import assembly, kinematics, stiffness
+from signorini.fem import assembly, jacobian, kinematics, stiffness
 from signorini.gallery.cubes import cubes
 from signorini.interface import face_parts
 from signorini.linalg import multifrontal, plan, schedule, system
@@ -104,6 +104,8 @@ def shared(monkeypatch) -> None:
     monkeypatch.setattr(schedule, "TILE", 16)
     monkeypatch.setattr(multifrontal, "SHARED_SOLVE", 0.0)
     monkeypatch.setattr(kinematics, "CELLS_AT_ONCE", 16)
+    monkeypatch.setattr(jacobian, "_AT_ONCE", 16)
+    monkeypatch.setattr(jacobian, "_SHARED_CELLS", 0)
     monkeypatch.setattr(assembly, "SHARED_CELLS", 0)
     monkeypatch.setattr(stiffness, "SHARED_ENTRIES", 0)
     monkeypatch.setattr(system, "SHARED_ENTRIES", 0)

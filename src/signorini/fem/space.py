@@ -14,7 +14,7 @@ import skfem
 
 from signorini.arrays import Array, BoolArray, IntArray, among, extent, frozen
 from signorini.errors import InputError, spell_point
-from signorini.fem.jacobian import determinants, jacobians
+from signorini.fem.jacobian import cell_determinants
 from signorini.fem.wedge import QuadraticWedge
 from signorini.meshing.facets import HEXAHEDRON, CellFacets, check_conforming, make_facets, refuse_folded
 from signorini.model.kind import axes, revolves
@@ -205,16 +205,11 @@ class Space:
         """Let go of what is made anew where somebody asks: larger than the mesh, and of use before it is solved."""
         self.__dict__.pop("facets", None)
 
-    @property
-    def jacobians(self) -> tuple[Array, ...]:
-        """``dx/dX`` at the quadrature points, (m, q, d, d) a block; not kept, for they are larger than the mesh."""
-        return tuple(jacobians(self.mesh.points[block.cells], block.gradients) for block in self.blocks)
-
     @cached_property
     def volumes(self) -> tuple[Array, ...]:
         """Quadrature weights times ``|det dx/dX|``, (m, q) a block: area of each quadrature point."""
-        both = zip(self.jacobians, self.blocks, strict=True)
-        return tuple(np.abs(determinants(bent)) * block.weights for bent, block in both)
+        points = self.mesh.points
+        return tuple(np.abs(cell_determinants(points, b.cells, b.gradients)) * b.weights for b in self.blocks)
 
     def volumes_of(self, block: Block) -> Array:
         """Area of each quadrature point of a block, (m, q)."""
@@ -394,7 +389,9 @@ def _check_extent(space: Space) -> None:
 
 
 def _check_shapes(space: Space) -> None:
-    points, simplex = space.mesh.points, space.dimension + 1  # linear ones are the same everywhere
-    for block, inner in zip(space.blocks, space.jacobians, strict=True):
-        outer = inner if block.cells.shape[1] == simplex else jacobians(points[block.cells], block.corners)
-        refuse_folded(space.mesh, block.family, block.first, np.hstack([determinants(outer), determinants(inner)]))
+    mesh, simplex = space.mesh, space.dimension + 1  # linear ones are the same everywhere
+    for block in space.blocks:
+        inner = outer = cell_determinants(mesh.points, block.cells, block.gradients)
+        if block.cells.shape[1] != simplex:
+            outer = cell_determinants(mesh.points, block.cells, block.corners)
+        refuse_folded(mesh, block.family, block.first, np.hstack([outer, inner]))
