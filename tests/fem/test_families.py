@@ -160,9 +160,9 @@ def test_quadratic_disks_are_round(family):
         share = 0.25 if make is quarter_disk else 0.5
         space = make_space(mesh)
         assert sum(v.sum() for v in space.volumes) == pytest.approx(share * np.pi * 64.0, rel=5e-4)
-        for block in space.blocks:
-            bent = jacobians(mesh.points[block.cells], block.gradients)
-            assert np.linalg.det(bent).min() > 0, block.family
+        for block_ in space.blocks:
+            bent = jacobians(mesh.points[block_.cells], block_.gradients)
+            assert np.linalg.det(bent).min() > 0, block_.family
         linear = make(radius=8.0, contact_length=4.0, contact_spacing=0.5, cells=family.rstrip("689"))
         order2 = make(radius=8.0, contact_length=4.0, contact_spacing=0.5, cells=family.rstrip("689"), order=2)
         if family != "quad9":
