@@ -27,8 +27,12 @@ from signorini.memory import available_memory
 from signorini.model.model import Model
 
 # measured on cubes of 13 000 to 1 000 000 unknowns and cylinders in the plane (benchmarks/memory.py), the least of each
-_ASSEMBLY = 20.0  # bytes an entry of K
-_LEAST_IN_SPACE = 70.0  # bytes an entry of K in space, all in all: iterating, which takes less than any factor
+_LEAST = 60.0  # bytes an entry of K, all in all: in space iterating, which takes less than any factor
+# bytes of writing results: whatever the size, for points of 65 536 cells at a time and buffers of HDF5; and a node, for
+# stresses, strains and forces there, twice of what a file is given in text, by the dimension
+_RESULTS = 40e6
+_RESULTS_NODE = {2: 850.0, 3: 3600.0}
+_STRESSES_NODE = 56.0  # bytes a node of the stresses at the end of a step, with its number
 _BORDER = 24.0  # bytes an entry of K: K with a border of the pairs, its graph and order, beside the factor
 _ITERATION = 44.0  # bytes an entry of K more, for its blocks, the coarse grids and vectors
 _TANGENTS = (
@@ -60,22 +64,54 @@ def likely_entries(model: Model) -> float:
     )
 
 
+def least_bytes(model: Model) -> float:
+    """What a solve takes at least, whichever way it goes.
+
+    Parameters
+    ----------
+    model : which is not assembled yet
+    """
+    return _LEAST * likely_entries(model)
+
+
 def refuse_unassembled(model: Model) -> None:
-    """Refuse a model that fits in no way, before anything is assembled: of the plane one whose stiffness does not.
+    """Refuse a model that fits in no way, before anything is assembled.
 
     Raises
     ------
     InputError
         With the least that it takes and what there is.
     """
-    each, what = (_LEAST_IN_SPACE, "a solve") if model.dimension == 3 else (_ASSEMBLY, "the stiffness")
-    asked, room = each * likely_entries(model), available_memory()
+    asked, room = least_bytes(model), available_memory()
     if asked > room:
         unknowns = model.number_of_dofs
         raise InputError(
-            f"{what} of {unknowns} unknowns takes at least {_size(asked)}, and {_size(room)} of memory are free; "
+            f"a solve of {unknowns} unknowns takes at least {_size(asked)}, and {_size(room)} of memory are free; "
             f"expected {_WAYS_OUT}"
         )
+
+
+def results_bytes(model: Model) -> float:
+    """The most that writing the fields of one state takes, in files of every kind.
+
+    That is less than the least that a solve takes, and is taken when what a solve holds is given back; but where a step
+    is written before the next one is solved, both are held at once.
+
+    Parameters
+    ----------
+    model : elastic
+    """
+    return _RESULTS + _RESULTS_NODE[model.dimension] * len(model.mesh.points)
+
+
+def shared_states(model: Model) -> int:
+    """Of how many states the stresses may be kept that several files need: those of half of the memory.
+
+    Parameters
+    ----------
+    model : of the states
+    """
+    return int(_SHARE * available_memory() / (_STRESSES_NODE * max(1, len(model.mesh.points))))
 
 
 def way_through(
@@ -169,7 +205,7 @@ def refuse_fields(model: Model) -> None:
     InputError
         The first step whose times are too many, with how many there is room for.
     """
-    if not any(isinstance(step.at, tuple) for step in model.steps):
+    if not any(isinstance(step.at, tuple) and step.at for step in model.steps):
         return
     each = 8 * model.number_of_dofs
     room = max(int(_SHARE * available_memory() / each) - len(model.steps), 0)

@@ -18,7 +18,9 @@ from typing import TYPE_CHECKING
 from signorini.clock import Clock
 from signorini.crew import shared
 from signorini.distributed.ranks import ON_RANKS
+from signorini.engine.memory_check import results_bytes, shared_states
 from signorini.errors import InputError
+from signorini.memory import available_memory
 from signorini.model.prints import Prints
 from signorini.outcome import Outcome
 from signorini.output.archive import GrowingArchive, read_archive, write_archive
@@ -212,10 +214,11 @@ class Publisher:
     def keep(self, history: History) -> None:
         """Write what is finished while the next step waits, where that has taken at most a tenth of the time so far.
 
-        Every step that takes ten times as long as writing is on disk at its end; faster ones some at a time.
+        Every step that takes ten times as long as writing is on disk at its end; faster ones some at a time. Where
+        memory does not hold results beside what the next step is solved with, they wait for the end.
         """
         begin = time.perf_counter()
-        if self._spent > _MAX_KEEP_SHARE * (begin - self.started):
+        if self._spent > _MAX_KEEP_SHARE * (begin - self.started) or results_bytes(history.model) > available_memory():
             return
         first = not self._written
         try:
@@ -303,7 +306,8 @@ class Publisher:
         if not history.steps:
             return []
         prints = None if history.status == Outcome.RUNNING else self.prints
-        fields = Fields(history.model, shared=() if prints is None else history.steps)
+        shared = () if prints is None else history.steps[: shared_states(history.model)]
+        fields = Fields(history.model, shared=shared)
         names = _write_tables(history, fields, aside, done=self._written, compress=self.compress, ranks=self._ranks)
         if prints is not None:
             write_frd(history, fields, aside / "solution.frd", prints.times)
