@@ -9,6 +9,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +27,9 @@ _GROUP_FILES = {
     "memory": ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
 }
 """Limit and use of a control group, and in ``memory.stat`` what of it is cached files that give way."""
+
+_NO_LIMIT = 1 << 62
+"""Bytes from which a limit says that there is none, in groups of the first version, whose use need not be read."""
 
 _ARENA_MAX = -8  # M_ARENA_MAX of glibc's malloc.h
 
@@ -83,25 +87,32 @@ def _under_limits() -> Iterator[int]:
 
 def _in_groups() -> Iterator[int]:
     """What the control groups of the process leave: those of containers and batch systems, of both versions."""
+    for folder, kinds in _groups():
+        most, used, idle = _GROUP_FILES[kinds]
+        try:
+            limit = int((folder / most).read_text())  # "max" where there is none
+            if limit < _NO_LIMIT:
+                files = dict(line.split() for line in (folder / "memory.stat").read_text().splitlines())
+                yield limit - int((folder / used).read_text()) + int(files.get(idle, 0))
+        except (OSError, ValueError):  # none that is limited
+            pass
+
+
+@cache
+def _groups() -> tuple[tuple[Path, str], ...]:
+    """Folders of the control groups that limit the memory of the process, and which version they are of; found once."""
     try:
         lines = Path("/proc/self/cgroup").read_text().splitlines()
     except OSError:
-        return
+        return ()
+    found = []
     for _, kinds, path in (line.split(":", 2) for line in lines):
-        if kinds not in ("", "memory"):
-            continue
-        root = Path("/sys/fs/cgroup", kinds)
-        most, used, idle = _GROUP_FILES[kinds]
-        here = root / path.lstrip("/")
-        for folder in (here, *here.parents):
-            try:
-                limit = int((folder / most).read_text())  # "max" where there is none
-                files = dict(line.split() for line in (folder / "memory.stat").read_text().splitlines())
-                yield limit - int((folder / used).read_text()) + int(files.get(idle, 0))
-            except (OSError, ValueError):  # no such group, or none that is limited
-                pass
-            if folder == root:
-                break
+        if kinds in _GROUP_FILES:
+            root = Path("/sys/fs/cgroup", kinds)
+            here = root / path.lstrip("/")
+            within = [folder for folder in (here, *here.parents) if folder.is_relative_to(root)]
+            found += [(folder, kinds) for folder in within if (folder / _GROUP_FILES[kinds][0]).exists()]
+    return tuple(found)
 
 
 def give_memory_back() -> None:
