@@ -21,7 +21,9 @@ _REACH = 3.0
 _ROOM = 4.0
 
 
-def candidate_pairs(examined: Examined, loading: Loading, before: BoolArray | None = None) -> BoolArray:
+def candidate_pairs(
+    examined: Examined, loading: Loading, before: BoolArray | None = None, *, held: bool = False
+) -> BoolArray:
     """(n,) Pairs that can touch; all where those alone would not hold a body, and in the plane where one
     yields or a side wears.
 
@@ -32,6 +34,7 @@ def candidate_pairs(examined: Examined, loading: Loading, before: BoolArray | No
     examined : the model under the supports of the step
     loading : the most that was imposed up to the end of the step
     before : (n,) those of the steps before it, which stay and are given back where they are enough
+    held : whether those hold the bodies, because they were found under the same supports
     """
     # flow moves bodies farther than loads compress them, and far sliding what is opposite what
     if (examined.model.yields and examined.space.dimension == 2) or examined.model.slides:
@@ -43,8 +46,10 @@ def candidate_pairs(examined: Examined, loading: Loading, before: BoolArray | No
     else:
         needed = _reached(examined, loading.times(_NEEDED))
         found = before if (before | ~needed).all() else before | _reached(examined, loading.times(_AHEAD))
-    holding = examined.interface.B[examined.interface.rows(found)]
-    if free_motions(examined.motions, examined.resisted, holding).shape[1]:
+    if found is before and held:
+        return found
+    seen = examined.interface.felt(examined.motions)[examined.interface.rows(found)]
+    if free_motions(examined.resisted, seen).shape[1]:
         return np.ones_like(found)
     return found
 

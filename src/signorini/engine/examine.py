@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array
+from signorini.arrays import Array, distinct
 from signorini.engine.bolts import with_bolts
 from signorini.engine.bond_company import refuse_beside_bonds
 from signorini.engine.duplicate_check import refuse_idle, refuse_same_contacts
@@ -204,14 +204,13 @@ def refuse_free_motions(
     InputError
         If a part can move: with its motion.
     """
-    dofs = space.dofs(np.unique(interface.B.indices // space.components)).ravel()
-    touching = sp.csr_array((np.ones(len(dofs)), (np.arange(len(dofs)), dofs)), (len(dofs), space.number_of_dofs))
-    free = free_motions(motions, resisted, touching)
+    touching = motions[space.dofs(distinct(interface.B.indices // space.components)).ravel()]
+    free = free_motions(resisted, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
     rubbing = (interface.friction.rubs & (interface.anisotropy > 0).T).ravel()
-    resisting = interface.B[np.concatenate([np.ones(len(interface), bool), rubbing])]
-    free = free_motions(motions, resisted, resisting)
+    resisting = interface.felt(motions)[np.concatenate([np.ones(len(interface), bool), rubbing])]
+    free = free_motions(resisted, resisting)
     if free.shape[1]:
         raise InputError(
             f"{_say(parts, free)}: nothing but frictionless contact, which cannot resist; add a support or friction"
@@ -230,4 +229,4 @@ def floating_motions(motions: sp.csr_array, resisted: Array, interface: Interfac
     motions : (dofs, motions of all parts)
     resisted, interface : what supports take of them, and the pairs with their ties
     """
-    return free_motions(motions, resisted, interface.B[interface.rows(interface.tied)])
+    return free_motions(resisted, interface.felt(motions)[interface.rows(interface.tied)])

@@ -64,7 +64,7 @@ def approached(part: StepPart, *, relieving: bool = False) -> FollowedPart | Non
     overlaps = bool((state.gap[apart] < -width).any())
     if not (relieving if overlaps else np.abs(work).max() > enough):
         return None
-    moved = np.asarray((interface.B @ motions) @ floating)
+    moved = np.asarray(interface.felt(motions) @ floating)
     rubs = presses & interface.friction.rubs
     basis = unfelt(moved[np.concatenate([presses, *[rubs] * (interface.directions - 1)])])
     basis = basis @ _alike(prepared, floating @ basis)
@@ -189,7 +189,7 @@ def resting(part: StepPart) -> StepPart:
         return part
     presses, apart, width = standing(prepared, state)
     touches = presses | (apart & (state.gap <= width))
-    moved = np.asarray((prepared.interface.B @ prepared.motions) @ prepared.floating)
+    moved = np.asarray(prepared.interface.felt(prepared.motions) @ prepared.floating)
     loose = unfelt(moved[prepared.interface.rows(touches)])
     change = change_of_loads(part)
     work = prepared.floating.T @ (prepared.motions.T @ change)

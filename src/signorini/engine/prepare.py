@@ -133,14 +133,13 @@ class Prepared(Examined, DiscreteModel):
         stage : the step
         before : the most that was imposed before it
         """
-        stays = stage.released == self.released
-        now = self if stays else self._released(stage.released)
+        same = stage.released == self.released
+        now = self if same else self._released(stage.released)
         loading = loading_of(stage, now.loads, now.posed, before)
-        if self.spared:
-            now = replace(now, increments=self.increments + increments_of(stage, now))
-            stays = stays and now.increments < self.worth
+        now = replace(now, increments=self.increments + increments_of(stage, now)) if self.spared else now
+        stays = same and (now.increments < self.worth or not self.spared)
         known = stays and bool(self.candidates.all())
-        found = self.candidates if known else candidate_pairs(now, loading, self.candidates)
+        found = self.candidates if known else candidate_pairs(now, loading, self.candidates, held=same)
         if stays and found is self.candidates:
             return now, loading
         return now._made_again(found), loading

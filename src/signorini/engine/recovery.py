@@ -68,7 +68,7 @@ class Recovery:
         K = stiffness(examined.space, model)
         for springs in constraints.springs.values():
             K = sp.csr_array(K + springs.T @ springs)
-        free = free_motions(examined.motions, examined.resisted, examined.interface.B[[]])
+        free = free_motions(examined.resisted, examined.motions[[]])
         loose = np.asarray(examined.motions @ free)
         held = held_by_springs(reduced_stiffness(K, T), loose[constraints.leaders], examined.scale.stiffness)
         found = factorise(held, [], nodes=constraints.nodes, points=examined.space.places)

@@ -106,7 +106,7 @@ def _open_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
 def overlap_notes(examined: Examined) -> Iterator[str]:
     """Contacts whose sides overlap to begin with, as they are meshed."""
     interface, model = examined.interface, examined.model
-    size = float(np.ptp(model.mesh.points, axis=0).max())
+    size = float(extent(model.mesh.points).max())
     for i, contact in enumerate(model.contacts):
         gap = interface.gap[interface.contact == i]
         if gap.min(initial=0.0) < -_OVERLAP_TOL * size and contact.interference == 0.0 and contact.gap == "geometry":

@@ -120,6 +120,8 @@ def stiffness(
 
 def _shares(points: Array, number: int) -> Int32Array:
     """Share the nodes, (N,): slabs across the longest side of the mesh, of about as many nodes each."""
+    if number == 1:
+        return np.zeros(len(points), np.int32)
     along = points[:, np.ptp(points, axis=0).argmax()] if len(points) else np.zeros(0)
     bounds = np.quantile(along, np.arange(1, number) / number) if len(along) else np.zeros(0)
     return np.searchsorted(bounds, along, side="right").astype(np.int32)

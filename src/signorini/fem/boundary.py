@@ -153,6 +153,6 @@ def boundary(space: Space, name: str, where: Where) -> Boundary:
            [0., 1.]])
     """
     points = space.mesh.points
-    found = outer_facets(space.facets, space.mesh, name, where)
+    found = outer_facets(space.facets_at_boundaries, space.mesh, name, where)
     blocks = (FacetBlock(facets=facets, points=points[facets], cells=cells) for facets, cells in found)
     return Boundary(points=points, blocks=tuple(blocks))

@@ -135,14 +135,13 @@ def mean_in_cells(weights: Array, functions: Array, values: Array, there: Array)
 def groups(space: Space, model: Model) -> Iterator[Group]:
     """All cells, by family and formulation, so many at once that arrays over their points stay small."""
     owner = model.body_of_cells()
-    formulations = np.array([body.formulation for body in model.bodies])
     for block in space.blocks:
         body = owner[block.first : block.first + len(block.cells)]
-        own = formulations[body]
+        own = np.array([body.formulation for body in model.bodies])
         if block.family not in BRICKS:
             own[own == "incompatible"] = "standard"
         for formulation in np.unique(own):
-            every = np.nonzero(own == formulation)[0]
+            every = np.flatnonzero((own == formulation)[body])
             for index in np.split(every, range(CELLS_AT_ONCE, len(every), CELLS_AT_ONCE)):
                 if len(index):
                     yield Group(block=block, index=index, body=body[index], formulation=str(formulation))

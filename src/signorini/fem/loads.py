@@ -178,8 +178,11 @@ def nodal_volumes(space: Space, model: Model) -> Array:
     """``int N_k dx`` of every node, (nodes,), of quadratic cells also negative; 0 at nodes of no cell."""
     volumes = np.zeros(len(space.mesh.points))
     for block, weights in zip(space.blocks, space.volumes, strict=True):
-        at = block.values @ space.mesh.points[block.cells]
-        weights = weights * measure(model, at, block.first + np.arange(len(block.cells)))
+        numbers = block.first + np.arange(len(block.cells))
+        if model.axisymmetric:
+            weights = weights * measure(model, block.values @ space.mesh.points[block.cells], numbers)
+        else:  # places are not asked for
+            weights = weights * model.cell_thickness[numbers][:, None]
         volumes += np.bincount(block.cells.ravel(), (weights @ block.values).ravel(), minlength=len(volumes))
     return volumes
 

@@ -104,10 +104,12 @@ def _freedom(model: Model) -> dict[str, Any]:
 def _pieces(space: Space, model: Model) -> list[ConnectedBody]:
     """Pieces of the mesh."""
     points, count = space.mesh.points, len(space.mesh.points)
-    rows = np.concatenate([np.repeat(b.cells[:, 0], b.cells.shape[1]) for b in space.blocks])
-    columns = np.concatenate([b.cells.ravel() for b in space.blocks])
-    graph = sp.csr_array((np.ones(len(rows), np.int8), (rows, columns)), shape=(count, count))
-    _, piece = connected_components(graph, directed=False)
+    # from cells, which are vertices behind the nodes, to their nodes: rows that need no sorting
+    members = np.concatenate([block.cells.ravel() for block in space.blocks]).astype(np.int32)
+    sizes = np.repeat([block.cells.shape[1] for block in space.blocks], [len(block.cells) for block in space.blocks])
+    start = np.concatenate([np.zeros(count + 1, np.int32), np.cumsum(sizes, dtype=np.int32)])
+    graph = sp.csr_array((np.ones(len(members)), members, start), shape=(len(start) - 1,) * 2)
+    piece = connected_components(graph, connection="weak")[1][:count]
     number, owner = int(piece.max()) + 1, model.body_of_cells()
     pieces_of = [
         among([piece[b.cells[owner[b.first : b.first + len(b.cells)] == i, 0]] for b in space.blocks], number)
@@ -189,28 +191,31 @@ def resistance(motions: sp.csr_array, constraints: Constraints) -> Array:
     motions : (dofs, motions of all parts), see :func:`rigid_motions`
     constraints : what supports hold, and elastic foundations
     """
-    # what supports, rigid boundaries and equations hold is what the free displacements cannot represent
-    lost = motions - constraints.transform @ motions[constraints.leaders]
+    # what supports, rigid boundaries and equations hold is what the free displacements cannot represent: nothing of the
+    # dofs that these are
+    leaders = constraints.leaders
+    others = np.flatnonzero(~among([leaders], motions.shape[0]))
+    lost, follow = motions[others], constraints.transform[others]
+    if follow.nnz:
+        lost = lost - follow @ motions[leaders]
     # springs count as held, whatever their stiffness
     springs = [(S / abs(S).max()) @ motions for S in constraints.springs.values()]
     taken = sp.vstack([lost, *springs]) if springs else lost
     return np.asarray((taken.T @ taken).toarray())
 
 
-def free_motions(motions: sp.csr_array, resisted: Array, held: sp.csr_array) -> Array:
-    """Rigid motions that supports and elastic foundations allow and that ``held`` does not see.
+def free_motions(resisted: Array, seen: sp.csr_array) -> Array:
+    """Rigid motions that supports and elastic foundations allow and of which nothing else that is held sees any.
 
     Parameters
     ----------
-    motions : (dofs, motions of all parts), see :func:`rigid_motions`
     resisted : (motions of all parts, motions of all parts), see :func:`resistance`
-    held : (rows, dofs) sparse, further components that are held, of unit size
+    seen : (rows, motions of all parts) what further components that are held, of unit size, see of the motions
 
     Returns
     -------
     (motions of all parts, k) coefficients, a basis as simple as it can be
     """
-    seen = held @ motions
     values, vectors = scipy.linalg.eigh(resisted + (seen.T @ seen).toarray())
     return _readable(vectors[:, values <= _HELD_LEAST * max(1.0, values[-1])])
 

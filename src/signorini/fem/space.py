@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
@@ -12,18 +13,16 @@ import numpy as np
 import scipy.sparse as sp
 import skfem
 
-from signorini.arrays import Array, BoolArray, IntArray, among, extent, frozen
-from signorini.errors import InputError, spell_point
+from signorini.arrays import Array, BoolArray, IntArray, among, frozen
+from signorini.fem.cell_checks import refuse_far_nodes, refuse_negative_radii, refuse_shape
 from signorini.fem.jacobian import cell_determinants
 from signorini.fem.wedge import QuadraticWedge
-from signorini.meshing.facets import HEXAHEDRON, CellFacets, check_conforming, make_facets, refuse_folded
+from signorini.meshing.facets import HEXAHEDRON, CellFacets, check_conforming, make_facets
 from signorini.model.kind import axes, revolves
 from signorini.model.mesh import CORNERS, Mesh
 
 ON_AXIS = 1e-10
 """Of the largest radius: nodes of axisymmetric bodies that are nearer are on the axis."""
-
-_DIGITS = 1e12  # how many times the shortest edge of a cell a mesh may extend
 
 
 @dataclass(frozen=True)
@@ -133,7 +132,9 @@ class Space:
         mesh = copy(self.mesh)  # nothing but the places is another, and nothing is to be checked again
         object.__setattr__(mesh, "points", frozen(points))
         found = replace(self, mesh=mesh, displacement=displacement)
-        found.__dict__["facets"] = self.facets
+        found.__dict__["facets_at_boundaries"] = self.facets_at_boundaries
+        if "facets" in self.__dict__:
+            found.__dict__["facets"] = self.facets
         return found
 
     @property
@@ -201,6 +202,13 @@ class Space:
         """Of all cells, by the number of their nodes."""
         return make_facets(self.mesh)
 
+    @cached_property
+    def facets_at_boundaries(self) -> dict[int, CellFacets]:
+        """Of the cells that have nodes of named boundaries, which are few, by the number of their nodes."""
+        mesh = self.mesh
+        named = itertools.chain.from_iterable(mesh.facets(name) for name in mesh.boundaries)
+        return make_facets(mesh, among(named, len(mesh.points)))
+
     def forget_facets(self) -> None:
         """Let go of what is made anew where somebody asks: larger than the mesh, and of use before it is solved."""
         self.__dict__.pop("facets", None)
@@ -253,7 +261,7 @@ def make_space(mesh: Mesh, *, kind: str = "", obstacles: int = 0, linked: IntArr
     """
     ring = revolves(kind)
     if ring:
-        _check_radii(mesh)
+        refuse_negative_radii(mesh, ON_AXIS)
     blocks, first = [], 0
     for family, cells in mesh.cells.items():
         blocks.append(Block(family=family, cells=cells, first=first, **_reference(family, ring)))
@@ -263,8 +271,9 @@ def make_space(mesh: Mesh, *, kind: str = "", obstacles: int = 0, linked: IntArr
     space = Space(mesh=mesh, blocks=tuple(blocks), components=components, obstacles=obstacles, linked=linked)
     if space.dimension == 2 and any(nodes.shape[1] > CORNERS[family] for family, nodes in mesh.cells.items()):
         check_conforming(mesh, space.facets)
-    _check_extent(space)
-    _check_shapes(space)
+    refuse_far_nodes(mesh, space.used_nodes)
+    for block in blocks:
+        refuse_shape(mesh, block.family, block.first, block.gradients, block.corners)
     return space
 
 
@@ -348,50 +357,3 @@ def _shape(element: skfem.Element, where: Array, order: IntArray) -> tuple[Array
     values = np.stack([np.broadcast_to(value, where.shape[1:]) for value, _ in found], axis=1)
     gradients = np.stack([np.broadcast_to(gradient, where.shape).T for _, gradient in found], axis=1)
     return values, gradients
-
-
-def _check_radii(mesh: Mesh) -> None:
-    radii = mesh.points[:, 0]
-    used = np.concatenate([cells.ravel() for cells in mesh.cells.values()])
-    node = used[np.argmin(radii[used])]
-    if radii[node] < -ON_AXIS * np.abs(radii[used]).max():
-        raise InputError(
-            f"node {mesh.labels[node]} has the radius {radii[node]:g}; expected x = r >= 0 in an axisymmetric model",
-            where=("mesh", "points"),
-        )
-
-
-def _check_extent(space: Space) -> None:
-    """Nodes at one place leave no cell; one far away, by a slip of the pen, leaves no digits to the others."""
-    points, labels = space.mesh.points, space.mesh.labels
-    used = points[space.used_nodes]
-    least = float(extent(used / _DIGITS).max())
-    for block in space.blocks:
-        edges = np.abs(points[block.cells[:, 1]] - points[block.cells[:, 0]]).max(axis=1)
-        cell = int(np.argmin(edges))
-        if (shortest := float(edges[cell])) >= least:
-            continue
-        name, (one, two) = space.mesh.cell_name(block.first + cell), block.cells[cell, :2]
-        away = np.abs(used - np.median(used, axis=0)).max(axis=1)
-        if shortest < float(np.median(away)) / _DIGITS:
-            raise InputError(
-                f"{name} has an edge of length {shortest:.3g}, from node {labels[one]} to node {labels[two]} at "
-                f"{spell_point(points[one], 6)}; expected corners at places of their own",
-                where=("mesh",),
-                cell=block.first + cell,
-            )
-        far = space.used_nodes[np.argmax(away)]
-        raise InputError(
-            f"node {labels[far]} at {spell_point(points[far], 6)} is more than {_DIGITS:.0e} times as far away as "
-            f"{name} is long ({shortest:.3g}); expected nodes whose places differ in the digits that numbers have",
-            where=("mesh",),
-        )
-
-
-def _check_shapes(space: Space) -> None:
-    mesh, simplex = space.mesh, space.dimension + 1  # linear ones are the same everywhere
-    for block in space.blocks:
-        inner = outer = cell_determinants(mesh.points, block.cells, block.gradients)
-        if block.cells.shape[1] != simplex:
-            outer = cell_determinants(mesh.points, block.cells, block.corners)
-        refuse_folded(mesh, block.family, block.first, np.hstack([outer, inner]))

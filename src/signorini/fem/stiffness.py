@@ -80,13 +80,17 @@ def _assembled(space: Space, model: Model, groups: Iterable[Group], D: Array, bu
 def _cells(space: Space, model: Model, group: Group) -> Cells:
     """What is assembled of a group of cells."""
     block = group.block
-    at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
+    if model.axisymmetric:
+        at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
+        across = measure(model, at, group.numbers)
+    else:  # places are not asked for
+        across = model.cell_thickness[group.numbers][:, None]
     cells = Cells(
         nodes=group.cells,
         shape_gradients=block.gradients,
         weights=block.weights,
         material=group.body,
-        measure=measure(model, at, group.numbers),
+        measure=across,
         shape_values=block.values,
     )
     if group.formulation == "incompatible":

@@ -63,8 +63,10 @@ class Constraints:
     @property
     def leaders(self) -> IntArray:
         """(z,) The first dof of each free displacement."""
-        given = np.flatnonzero(self.free >= 0)
-        return given[np.unique(self.free[given], return_index=True)[1]]
+        given = np.flatnonzero(self.free >= 0)[::-1]
+        first = np.empty(self.transform.shape[1], np.int64)
+        first[self.free[given]] = given  # the last that is written stays
+        return first
 
     @property
     def held(self) -> BoolArray:
@@ -149,8 +151,10 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     free[unknown] = np.arange(len(unknown))
     free[follows] = -2
     free = np.where(given.held, -1, free[leader])
-    rows = np.flatnonzero(free >= 0)
-    T = sp.csr_array((np.ones(len(rows)), (rows, free[rows])), shape=(total, len(unknown)))
+    given_rows = free >= 0
+    start = np.concatenate([np.zeros(1, np.int32), np.cumsum(given_rows, dtype=np.int32)])
+    columns = free[given_rows].astype(np.int32)
+    T = sp.csr_array((np.ones(len(columns)), columns, start), shape=(total, len(unknown)))
     dependent = np.flatnonzero(free == -2)
     if len(dependent):
         shares = shares[np.searchsorted(np.flatnonzero(follows), leader[dependent])]

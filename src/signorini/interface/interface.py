@@ -11,16 +11,15 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, extent, scaled_rows
+from signorini.arrays import Array, BoolArray, IntArray, extent
 from signorini.errors import InputError
-from signorini.fem.obstacles import carried, placed
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
-from signorini.interface.coupling import along
 from signorini.interface.frames import LEAST_SINE, along_tangents, tangents
-from signorini.interface.hoop import hoop_rows, with_hoop
+from signorini.interface.hoop import with_hoop
 from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
+from signorini.interface.relative_rows import relative_rows
 from signorini.law.bound import Bound
 from signorini.law.closure import Borne, PairClosure
 from signorini.law.cohesion import Bonds, PairCohesion, bonded
@@ -123,6 +122,13 @@ class Interface:
         """B^T, asked for in every round of small models."""
         return self.B.T
 
+    def felt(self, motions: sp.csr_array) -> sp.csr_array:
+        """(d n, k) What the pairs see of motions (dofs, k), ``B X``; the last ones are not asked twice."""
+        known = self.__dict__.get("_felt")
+        if known is None or known[0] is not motions:
+            known = self.__dict__["_felt"] = motions, sp.csr_array(self.B @ motions)
+        return known[1]
+
     @property
     def compliance(self) -> Array:
         """(d, n) of the pairs, length per force."""
@@ -208,7 +214,7 @@ def make_interface(
     if any(model.contacts[i].cohesion for i in chosen):
         bonds = [contact.cohesion for contact in model.contacts]
         gap, cohesion = bonded(bonds, index, gap, area, float(extent(space.mesh.points).max()))
-    B = _relative_rows(space, model, parts, normals, axes, still)
+    B = relative_rows(space, model, parts, normals, axes, still)
     if model.twists:
         normals, axes = with_hoop(normals, axes)
         mirrored = np.pad(mirrored, ((0, 0), (0, 1)))
@@ -245,39 +251,6 @@ def _closure(model: Model, chosen: Sequence[int], parts: Sequence[Pairs]) -> Pai
         return None
     compliances = [contact.normal_compliance for contact in contacts]
     return PairClosure.of([contact.closure for contact in contacts], compliances, [len(part.gap) for part in parts])
-
-
-def _relative_rows(
-    space: Space, model: Model, parts: Sequence[Pairs], normals: Array, axes: Array, still: BoolArray
-) -> sp.csr_array:
-    """B: the normal rows of all pairs, then those along every tangent."""
-    none, area = sp.csr_array((0, len(space.mesh.points))), _joined([part.coupling.area for part in parts], (0,))
-    closing, sliding = (
-        tuple(
-            scaled_rows(sp.vstack([none, *(part[i] for part in of)]).tocsr(), 1.0 / area)
-            for i in range(space.dimension)
-        )
-        for of in ([part.coupling.forces for part in parts], [part.sliding for part in parts])
-    )
-    carrier = np.repeat([part.obstacle for part in parts], [len(part.gap) for part in parts]).astype(int)
-    rows = [_with_obstacles(space, model, carrier, closing)]
-    for k in range(space.dimension - 1):
-        slid = _with_obstacles(space, model, carrier, _sliding_rows(sliding, normals, axes[:, k]))
-        rows.append(scaled_rows(slid, np.where(still[:, k], 0.0, 1.0)))
-    if model.twists:
-        nothing, radii = sp.csr_array(closing[0].shape), space.mesh.points[:, 0]
-        twisted = sp.vstack([none, *(hoop_rows(part.coupling, part.own, radii) for part in parts)]).tocsr()
-        around = scaled_rows(twisted, 1.0 / area)
-        rows.append(_with_obstacles(space, model, carrier, (nothing, nothing, around)))
-    B = sp.csr_array(sp.vstack(rows))
-    B.sum_duplicates()  # entries in order from the start: sums do not depend on who has looked at them before
-    return B
-
-
-def _about(space: Space, model: Model, j: int) -> Array:
-    """(d,) Where the point is about which obstacle j turns."""
-    where = placed(space, model, j)
-    return where.about + where.shift
 
 
 def _joined(parts: Sequence[Array], none: tuple[int, ...]) -> Array:
@@ -367,34 +340,3 @@ def pairs_of(model: Model, interface: Interface, labels: Collection[str]) -> Boo
     """
     own = [i for i, contact in enumerate(model.contacts) if contact.label in labels]
     return np.asarray(np.isin(interface.contact, own), dtype=np.bool_)
-
-
-def _sliding_rows(closing: tuple[sp.csr_array, ...], normals: Array, axes: Array) -> tuple[sp.csr_array, ...]:
-    """Rows of the sliding along one axis t of every pair: what turns n into t, ``t n^T - n t^T``, turns them too.
-
-    In the plane that is the exact turn by a right angle: where the weights of the gap follow the normals along a curved
-    side, those of the sliding follow its tangents, and a uniform friction passes as exactly as a uniform pressure.
-    """
-    onto, aside = along(closing, normals), along(closing, axes)
-    return tuple(
-        sp.csr_array(scaled_rows(onto, axes[:, i]) - scaled_rows(aside, normals[:, i])) for i in range(axes.shape[1])
-    )
-
-
-def _with_obstacles(space: Space, model: Model, carrier: IntArray, weights: tuple[sp.csr_array, ...]) -> sp.csr_array:
-    """Rows ``sum_ji weights_kji u_ji`` in terms of all unknowns: moving obstacles take the nonmortar side with them."""
-    entries = [sp.coo_array(part) for part in weights]
-    rows = np.concatenate([part.row for part in entries])
-    columns = np.concatenate([space.dofs(part.col.astype(np.int64))[:, i] for i, part in enumerate(entries)])
-    values = np.concatenate([part.data for part in entries])
-    bodies = sp.csr_array((values, (rows, columns)), shape=(len(carrier), space.dofs_of_nodes))
-    bodies.eliminate_zeros()
-    width = 2 * space.components
-    moved = np.zeros((len(carrier), width * (len(model.obstacles) + len(model.rigid_bodies))))
-    for j in range(len(model.obstacles)):
-        own = np.flatnonzero(carrier == j)
-        seen = np.unique(np.concatenate([part[own].indices for part in weights]))
-        motions = carried(model, space.mesh.points[seen], _about(space, model, j))
-        of_pairs = sum(part[own][:, seen] @ motions[:, i] for i, part in enumerate(weights))
-        moved[own, width * j : width * (j + 1)] = -of_pairs
-    return sp.csr_array(sp.hstack([bodies, sp.csr_array(moved)]))

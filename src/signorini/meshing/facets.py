@@ -53,25 +53,33 @@ def facet_corners(dimension: int, count: int) -> int:
     return 2 if dimension == 2 else FACE_CORNERS[count]
 
 
-def make_facets(mesh: Mesh) -> dict[int, CellFacets]:
-    """The facets of all cells, by the number of their nodes."""
+def make_facets(mesh: Mesh, at: BoolArray | None = None) -> dict[int, CellFacets]:
+    """The facets of cells, by the number of their nodes.
+
+    Parameters
+    ----------
+    mesh : of the cells
+    at : (n,) nodes; of cells that have none of them facets are left out. None: of no cell
+    """
     nodes: dict[int, list[IntArray]] = {}
     owner: dict[int, list[IntArray]] = {}
     first, d = 0, mesh.points.shape[1]
-    for family, cells in mesh.cells.items():
+    for family, every in mesh.cells.items():
+        chosen = np.arange(len(every)) if at is None else np.flatnonzero(at[every].any(axis=1))
+        cells = every if at is None else every[chosen]
         inside_out = numbered_inside_out(mesh.points, family, cells)
         for facet in FACETS[family]:
             members = cells[:, list(facet)]
             members[inside_out] = members[inside_out][:, turned_facet(facet_corners(d, len(facet)), len(facet))]
             nodes.setdefault(len(facet), []).append(members)
-            owner.setdefault(len(facet), []).append(first + np.arange(len(cells)))
-        first += len(cells)
+            owner.setdefault(len(facet), []).append(first + chosen)
+        first += len(every)
     result = {}
     for count, parts in nodes.items():
-        every, cell = np.concatenate(parts), np.concatenate(owner[count])
-        key = facet_keys(every[:, : facet_corners(d, count)], len(mesh.points))
+        facets, cell = np.concatenate(parts), np.concatenate(owner[count])
+        key = facet_keys(facets[:, : facet_corners(d, count)], len(mesh.points))
         order = np.argsort(key, kind="stable")
-        result[count] = CellFacets(nodes=every[order], cell=cell[order], key=key[order])
+        result[count] = CellFacets(nodes=facets[order], cell=cell[order], key=key[order])
     return result
 
 
@@ -107,14 +115,16 @@ def corner_volumes(points: Array, family: str, cells: IntArray, first: int | Non
     family, cells : (m, k) nodes of cells of one family
     first : corners that are looked at; all if not given
     """
+    corners = _NEIGHBOURS[family.rstrip("0123456789")]
+    at = points.T[:, cells[:, : len(corners)].T]  # a row a corner: what follows runs along the cells
     volumes = []
-    for corner, others in enumerate(_NEIGHBOURS[family.rstrip("0123456789")][:first]):
-        one, two, *three = (points[cells[:, other]] - points[cells[:, corner]] for other in others)
+    for corner, others in enumerate(corners[:first]):
+        one, two, *three = (at[:, other] - at[:, corner] for other in others)
         if three:
-            volumes.append(np.sum(np.cross(one, two) * three[0], axis=1))
+            volumes.append(np.sum(np.cross(one, two, axis=0) * three[0], axis=0))
         else:
-            volumes.append(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
-    return np.stack(volumes, axis=1)
+            volumes.append(one[0] * two[1] - one[1] * two[0])
+    return np.array(volumes).T
 
 
 def refuse_folded(mesh: Mesh, family: str, first: int, volumes: Array) -> None:
