@@ -272,8 +272,8 @@ class Derivative:
     def shape_sides(self, motion: ArrayLike) -> tuple[float, float]:
         """The derivatives by a motion of the nodes, (nodes, d), backwards and forwards along it; mostly the same.
 
-        They differ where nodes leave a straight side opposite a smooth one, part flush ends, or change gaps that are none
-        before anything is loaded; and at an event.
+        They differ where nodes leave a straight side opposite a smooth one, part flush ends, or change gaps of pairs
+        that touch before anything is loaded; and at an event.
 
         Raises
         ------
