@@ -9,11 +9,12 @@ import pytest
 
 import signorini as sg
 from signorini.clock import Clock
-from signorini.engine.memory_check import least_bytes, results_bytes
+from signorini.engine.memory_check import least_bytes
 from signorini.gallery.cubes import cubes
 from signorini.gallery.cylinder import zhu_cylinder
 from signorini.model.prints import Prints
 from signorini.output import folder
+from signorini.output.room import results_bytes
 
 PROCESS = """
 import gc, json, sys, tempfile

@@ -27,12 +27,7 @@ from signorini.memory import available_memory
 from signorini.model.model import Model
 
 # measured on cubes of 13 000 to 1 000 000 unknowns and cylinders in the plane (benchmarks/memory.py), the least of each
-_LEAST = 60.0  # bytes an entry of K, all in all: in space iterating, which takes less than any factor
-# bytes of writing results: whatever the size, for points of 65 536 cells at a time and buffers of HDF5; and a node, for
-# stresses, strains and forces there, twice of what a file is given in text, by the dimension
-_RESULTS = 40e6
-_RESULTS_NODE = {2: 850.0, 3: 3600.0}
-_STRESSES_NODE = 56.0  # bytes a node of the stresses at the end of a step, with its number
+_LEAST_OF_SOLVE = 60.0  # bytes an entry of K, all in all: in space iterating, which takes less than any factor
 _BORDER = 24.0  # bytes an entry of K: K with a border of the pairs, its graph and order, beside the factor
 _ITERATION = 44.0  # bytes an entry of K more, for its blocks, the coarse grids and vectors
 _TANGENTS = (
@@ -71,7 +66,7 @@ def least_bytes(model: Model) -> float:
     ----------
     model : which is not assembled yet
     """
-    return _LEAST * likely_entries(model)
+    return _LEAST_OF_SOLVE * likely_entries(model)
 
 
 def refuse_unassembled(model: Model) -> None:
@@ -89,29 +84,6 @@ def refuse_unassembled(model: Model) -> None:
             f"a solve of {unknowns} unknowns takes at least {_size(asked)}, and {_size(room)} of memory are free; "
             f"expected {_WAYS_OUT}"
         )
-
-
-def results_bytes(model: Model) -> float:
-    """The most that writing the fields of one state takes, in files of every kind.
-
-    That is less than the least that a solve takes, and is taken when what a solve holds is given back; but where a step
-    is written before the next one is solved, both are held at once.
-
-    Parameters
-    ----------
-    model : elastic
-    """
-    return _RESULTS + _RESULTS_NODE[model.dimension] * len(model.mesh.points)
-
-
-def shared_states(model: Model) -> int:
-    """Of how many states the stresses may be kept that several files need: those of half of the memory.
-
-    Parameters
-    ----------
-    model : of the states
-    """
-    return int(_SHARE * available_memory() / (_STRESSES_NODE * max(1, len(model.mesh.points))))
 
 
 def way_through(

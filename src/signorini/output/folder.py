@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 from signorini.clock import Clock
 from signorini.crew import shared
 from signorini.distributed.ranks import ON_RANKS
-from signorini.engine.memory_check import results_bytes, shared_states
 from signorini.errors import InputError
 from signorini.memory import available_memory
 from signorini.model.prints import Prints
@@ -31,6 +30,7 @@ from signorini.output.fatigue_csv import fatigue_fields, write_fatigue
 from signorini.output.fields import Fields
 from signorini.output.frd import write_frd
 from signorini.output.history_csv import write_history
+from signorini.output.room import results_bytes, shared_states
 from signorini.output.series import frames, write_series, write_state
 from signorini.output.summary import summary
 from signorini.output.vtu import FIELDS, write_bodies, write_surfaces
