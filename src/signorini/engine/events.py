@@ -141,7 +141,9 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings 
         if path.segment.outcome == Outcome.DISTURBED:
             found = [_part_along(path.cut)] if path.reached > 0.0 else []
             behind += found
-            part = resting(part.woken.rest(path.cut.part, found[0].after if found else part.before))
+            part = part.woken.rest(path.cut.part, found[0].after if found else part.before)
+            if found:  # what is disturbed at once is not put to rest again: that would never end
+                part = resting(part)
             continue
         lost = _lost(path, follows=jumps)
         begun = _anew(path, behind) if len(behind) < JUMPS else []
