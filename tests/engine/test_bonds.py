@@ -306,7 +306,9 @@ def drawn_anyhow(seed):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [3, 26, 45, 50])
 def test_bonds_drawn_anyhow_are_followed_to_the_end(seed):
-    """Of a hundred that were; these once were not."""
+    """Of a hundred that were; these once were not. Energy is missing by rounding of the largest so far."""
+    energy = 0.0
     for step in sg.solve(drawn_anyhow(seed)).steps:
         assert step.certificate.passed
-        assert abs(step.energy_defect) < 1e-10 * (abs(step.work) + step.strain_energy + step.dissipation)
+        energy = max(energy, abs(step.work) + step.strain_energy + step.dissipation)
+        assert abs(step.energy_defect) < 1e-10 * energy

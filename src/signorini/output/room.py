@@ -7,7 +7,7 @@ from signorini.memory import available_memory
 from signorini.model.model import Model
 
 # measured (tests/output/test_memory.py)
-_RESULTS = 40e6  # bytes of writing results, whatever the size: for points of thousands of cells at a time and buffers of HDF5
+_RESULTS = 40e6  # bytes of writing results, whatever the size: points of thousands of cells at a time, buffers of HDF5
 # bytes a node by the dimension: stresses, strains and forces there, and what files make of them
 _RESULTS_NODE = {2: 850.0, 3: 3600.0}
 _STRESSES_NODE = 56.0  # bytes a node of the stresses at the end of a step, with its number
