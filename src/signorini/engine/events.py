@@ -141,9 +141,8 @@ def _beyond_jumps(part: StepPart, how: str, *, jumps: bool, stops: PathSettings 
         if path.segment.outcome == Outcome.DISTURBED:
             found = [_part_along(path.cut)] if path.reached > 0.0 else []
             behind += found
-            part = part.woken.rest(path.cut.part, found[0].after if found else part.before)
-            if found:  # what is disturbed at once is not put to rest again: that would never end
-                part = resting(part)
+            woken = part.woken.rest(path.cut.part, found[0].after if found else part.before)
+            part = resting(woken) if found else woken  # what is disturbed at once rests no more: that would never end
             continue
         lost = _lost(path, follows=jumps)
         begun = _anew(path, behind) if len(behind) < JUMPS else []
@@ -388,8 +387,7 @@ def _lost(path: _Path, *, follows: bool) -> SolveFailed:
     if len(pairs) > _NAMED:
         nodes += f" and {len(pairs) - _NAMED} more"
     what, remedy = ("gross sliding", HOLD) if segment.jump.gross_sliding else ("a jump", _LESS if follows else _FOLLOW)
-    where = f"{where} at {part.interval.fraction(segment.jump.factor):.6%}"
-    motion = None
+    where, motion = f"{where} at {part.interval.fraction(segment.jump.factor):.6%}", None
     if segment.jump.escape is not None:
         words, motion = leaving(prepared, segment.jump.escape)
         what = f"{what}: {words}"
