@@ -11,10 +11,10 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
-from signorini.fem.measure import facet_areas, measure
+from signorini.fem.measure import facet_areas, measure, measure_of_cells
 from signorini.fem.obstacles import arm, obstacle_loads
 from signorini.fem.places import nodes_at, place_dofs
-from signorini.fem.space import ON_AXIS, Space
+from signorini.fem.space import ON_AXIS, Block, Space
 from signorini.fem.thermal import thermal_forces
 from signorini.fem.varying import on_facets
 from signorini.model.conditions import BODY_LOADS, Load
@@ -179,10 +179,7 @@ def nodal_volumes(space: Space, model: Model) -> Array:
     volumes = np.zeros(len(space.mesh.points))
     for block, weights in zip(space.blocks, space.volumes, strict=True):
         numbers = block.first + np.arange(len(block.cells))
-        if model.axisymmetric:
-            weights = weights * measure(model, block.values @ space.mesh.points[block.cells], numbers)
-        else:  # places are not asked for
-            weights = weights * model.cell_thickness[numbers][:, None]
+        weights = weights * measure_of_cells(model, partial(_quadrature_points, space, block), numbers)
         volumes += np.bincount(block.cells.ravel(), (weights @ block.values).ravel(), minlength=len(volumes))
     return volumes
 
@@ -199,3 +196,9 @@ def _density(load: Load, mass: float, at: Array, axisymmetric: bool) -> Array:
         return mass * load.centrifugal**2 * outward
     constant = np.array(load.body_force) if load.body_force is not None else mass * np.array(load.gravity)
     return np.broadcast_to(constant, (*at.shape[:-1], len(constant)))
+
+
+def _quadrature_points(space: Space, block: Block) -> Array:
+    """Of the cells of a block, (m, q, d)."""
+    at: Array = block.values @ space.mesh.points[block.cells]
+    return at

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from signorini.arrays import Array, IntArray
@@ -24,6 +26,18 @@ def measure(model: Model, points: Array, cells: IntArray) -> Array:
     if model.axisymmetric:
         return 2.0 * np.pi * np.asarray(points)[..., 0]
     return np.broadcast_to(model.cell_thickness[cells][:, None], np.shape(points)[:-1])
+
+
+def measure_of_cells(model: Model, places: Callable[[], Array], cells: IntArray) -> Array:
+    """Thickness, or ``2 pi r``, at all points of cells, (m, q); (m, 1) where it is one, and places are not asked for.
+
+    Parameters
+    ----------
+    model : tells the thickness, or that it is axisymmetric
+    places : gives the points, (m, q, d)
+    cells : (m,) their numbers
+    """
+    return measure(model, places(), cells) if model.axisymmetric else model.cell_thickness[cells][:, None]
 
 
 def contact_measure(model: Model, points: Array, one: IntArray, other: IntArray) -> Array:

@@ -16,7 +16,7 @@ from signorini.fem.assembly import Cells
 from signorini.fem.assembly import stiffness as assemble
 from signorini.fem.elasticity import elasticities, law_tensor
 from signorini.fem.kinematics import Group, mode_gradients, of_each, straining_groups
-from signorini.fem.measure import measure
+from signorini.fem.measure import measure_of_cells
 from signorini.fem.space import Space
 from signorini.model.model import Model
 
@@ -80,17 +80,17 @@ def _assembled(space: Space, model: Model, groups: Iterable[Group], D: Array, bu
 def _cells(space: Space, model: Model, group: Group) -> Cells:
     """What is assembled of a group of cells."""
     block = group.block
-    if model.axisymmetric:
-        at = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
-        across = measure(model, at, group.numbers)
-    else:  # places are not asked for
-        across = model.cell_thickness[group.numbers][:, None]
+
+    def places() -> Array:
+        at: Array = np.einsum("qk,mki->mqi", block.values, space.mesh.points[group.cells])
+        return at
+
     cells = Cells(
         nodes=group.cells,
         shape_gradients=block.gradients,
         weights=block.weights,
         material=group.body,
-        measure=across,
+        measure=measure_of_cells(model, places, group.numbers),
         shape_values=block.values,
     )
     if group.formulation == "incompatible":

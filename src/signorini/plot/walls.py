@@ -55,16 +55,22 @@ def walls_of(model: Model, state: State) -> list[Wall]:
     known = state.motions or {}
     moving = [(rigid.shape, rigid.about, known[rigid.name]) for rigid in model.obstacles if rigid.name in known]
     walls = [Wall(shape, np.array(about), found.displacement, float(found.rotation)) for shape, about, found in moving]
-    resting = [contact.mortar for contact in model.contacts if isinstance(contact.mortar, Obstacle)]
-    return walls + [Wall(shape, np.zeros(2), np.zeros(2), 0.0) for shape in resting]
+    return walls + _at_rest(_resting(model))
 
 
 def walls_at_rest(model: Model) -> list[Wall]:
     """Obstacles of a plane model before any of them moves; none in space."""
     if model.dimension == 3:
         return []
-    shapes = [contact.mortar for contact in model.contacts if isinstance(contact.mortar, Obstacle)]
-    shapes += [rigid.shape for rigid in model.obstacles]
+    return _at_rest([*_resting(model), *(rigid.shape for rigid in model.obstacles)])
+
+
+def _resting(model: Model) -> list[Obstacle]:
+    """Obstacles that never move."""
+    return [contact.mortar for contact in model.contacts if isinstance(contact.mortar, Obstacle)]
+
+
+def _at_rest(shapes: list[Obstacle]) -> list[Wall]:
     return [Wall(shape, np.zeros(2), np.zeros(2), 0.0) for shape in shapes]
 
 
