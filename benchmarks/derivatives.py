@@ -23,7 +23,8 @@ import numpy as np
 import signorini as sg
 from benchmarks import page
 from signorini.blas_threads import one_thread
-from signorini.derivative.derivative import Derivative, TapedHistory
+from signorini.derivative.derivative import Derivative
+from signorini.derivative.taped_history import TapedHistory
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.engine.tape import Tape

@@ -16,8 +16,9 @@ from dataclasses import replace
 import numpy as np
 
 import signorini as sg
-from signorini.derivative.derivative import Derivative, TapedHistory
+from signorini.derivative.derivative import Derivative
 from signorini.derivative.functionals import value
+from signorini.derivative.taped_history import TapedHistory
 from signorini.engine.solve import solve
 from signorini.engine.tape import Tape
 

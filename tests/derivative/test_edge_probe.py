@@ -6,12 +6,12 @@ import pytest
 import signorini as sg
 from signorini.derivative.edge_probe import EdgeProbe
 from signorini.derivative.validity import edges
+from signorini.model.outputs import WeightedSum
 
 
-@pytest.fixture(scope="module")
-def symmetric():
-    """A block that is pressed, and squeezed alike from both sides: pairs slip in twos."""
-    model = sg.Model(
+def squeezed(one=1.0):
+    """A block that is pressed, and squeezed from both sides, from the left by ``one``: at 1 pairs slip in twos."""
+    return sg.Model(
         sg.rectangle(nx=4, ny=2, width=2.0, origin=(-1.0, 0.0)),
         bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
         supports=[sg.Support("top", u=(0.0, -0.01), name="down")],
@@ -23,10 +23,27 @@ def symmetric():
         kind="plane strain",
         steps=[
             sg.Step(scale={"down": 1.0}, path="exact"),
-            sg.Step(scale={"one": 1.0, "other": 1.0}, path="exact"),
+            sg.Step(scale={"one": one, "other": 1.0}, path="exact"),
         ],
     )
-    return sg.solve(model, tape=True)._taped
+
+
+@pytest.fixture(scope="module")
+def solution():
+    return sg.solve(squeezed(), tape=True)
+
+
+@pytest.fixture(scope="module")
+def symmetric(solution):
+    return solution._taped
+
+
+def differences(output, step=1e-6):
+    """Of an output by the load from the left, downwards and upwards."""
+    low, middle, high = (
+        sg.solve(squeezed(1.0 + part), tape=True).derivative(output).value for part in (-step, 0.0, step)
+    )
+    return (middle - low) / step, (high - middle) / step
 
 
 @pytest.mark.parametrize("parameter", ["friction.joint", "E.block", "support.down", "load.one", "load.other"])
@@ -34,6 +51,32 @@ def test_the_probe_finds_what_ways_forwards_find(symmetric, parameter):
     kind, _, name = parameter.partition(".")
     probe = EdgeProbe(symmetric.view.points)
     assert probe
-    wanted = bool(edges(symmetric.view, symmetric.forward(kind, name)))
+    wanted = bool(edges(symmetric.view, symmetric.forward(symmetric.change(kind, name), 1.0)))
     assert wanted == (kind == "load")
     assert probe.takes_apart(symmetric.change(kind, name)) == wanted
+
+
+def test_an_output_that_remembers_nothing_of_the_order_in_which_pairs_slip_has_one_derivative(solution):
+    """Two pairs that slip together slip one after the other under loads that differ, and hold nothing of it."""
+    traction = sg.traction("joint")[1]
+    derivative = solution.derivative(traction)
+    assert derivative.sides("load.one") == pytest.approx(differences(traction), rel=1e-6)
+    assert derivative.by("load.one") == derivative.sides("load.one")[1]
+    with pytest.raises(sg.InputError, match=r"slips with another at load factor .* may have two sides there"):
+        solution.derivative(sg.dissipation()).by("load.one")  # friction takes work from each from where it slips
+    with pytest.raises(sg.InputError, match="slips with another at load factor"):
+        solution.tangent(load="one")
+
+
+def test_a_largest_pressure_that_two_nodes_share_has_two_sides(solution):
+    """Upwards it is that which grows most, downwards that which falls least; together they may have one."""
+    peak = sg.pressure("joint").peak
+    derivative = solution.derivative(peak)
+    low, high = derivative.sides("load.one")
+    assert (low, high) == pytest.approx(differences(peak), rel=1e-6)
+    assert low < 0.0 < high
+    with pytest.raises(sg.InputError, match=r"nodes 1 and 5 of 'joint' have the largest pressure alike: .* two sides"):
+        derivative.by("load.one")
+    assert derivative.by("friction.joint") == pytest.approx(solution.tangent(friction="joint").of(peak), rel=1e-9)
+    minus = solution.derivative(WeightedSum(parts=((-2.0, peak),)))
+    assert minus.sides("load.one") == pytest.approx((-2.0 * low, -2.0 * high), rel=1e-12)

@@ -79,7 +79,7 @@ def test_both_ways_are_those_of_a_complex_step(path, parameter):
     system = points[-1].system
     direction = Direction(system, **{parameter: 1.0})
     wanted = direction.replay(points, legs)
-    found = forward(points, direction)
+    found = forward(points, direction, np.zeros((system.directions - 1, len(system.condensed.active))))
     sizes = [max(np.abs(row[k].imag).max() for row in wanted) / STEP for k in range(2)]
     weights = {}
     for i, (change, (h, r, _)) in enumerate(zip(found, wanted, strict=True)):

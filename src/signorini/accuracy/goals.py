@@ -13,9 +13,9 @@ from signorini.accuracy.estimate import Estimate
 from signorini.accuracy.output_error import OutputLevel, output_error
 from signorini.accuracy.recovery import StressRecovery
 from signorini.arrays import Array
-from signorini.derivative.derivative import TapedHistory
 from signorini.derivative.dual import dual_displacement
 from signorini.derivative.functionals import value
+from signorini.derivative.taped_history import TapedHistory
 from signorini.engine.tape import Tape
 from signorini.errors import InputError, one_of
 from signorini.fem.stress import DeformedBodies

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
@@ -16,8 +17,15 @@ from signorini.derivative.view import HistoryView
 from signorini.model.outputs import Displacement, Output, Stress, WeightedSum
 
 
-def adjoint_of(view: HistoryView, output: Output) -> tuple[Adjoint, dict[int, Array]]:
-    """The adjoint of an output, and how it changes with displacements (dofs,) by number of the point."""
+def adjoint_of(view: HistoryView, output: Output, stops: Collection[int] = ()) -> tuple[Adjoint, dict[int, Array]]:
+    """The adjoint of an output, and how it changes with displacements (dofs,) by number of the point.
+
+    Parameters
+    ----------
+    view : the history
+    output : of it
+    stops : as of `backward`
+    """
     together: dict[int, Weights] = {}
     pulls: dict[int, Array] = {}
     for factor, part in output.parts if isinstance(output, WeightedSum) else ((1.0, output),):
@@ -31,8 +39,8 @@ def adjoint_of(view: HistoryView, output: Output) -> tuple[Adjoint, dict[int, Ar
     for i, pull in pulls.items():
         of_h, of_r, pulled[i], beyond[i] = _of_bodies(view.points[i], len(view.interface), pull)
         _add(together, i, of_h, of_r)
-    adjoint = backward(view.points, together, {i: -motion for i, motion in beyond.items()})
-    return replace(adjoint, pulled=pulled), pulls
+    adjoint = backward(view.points, together, {i: -motion for i, motion in beyond.items()}, stops)
+    return replace(adjoint, pulled=pulled, weights=together), pulls
 
 
 def _add(together: dict[int, Weights], i: int, h: Array, r: Array) -> None:

@@ -104,6 +104,8 @@ class Adjoint:
     stacks : of the points that matter, one a system
     bounds : by system
     remembered : (d - 1, n) per length, with tangential motions that are remembered before the first point
+    behind : (d - 1, n) the same behind some points, by number
+    weights : how the output changes with motions and forces directly, by number of the point
     pulled : (z,) by number of the point, of outputs of bodies: free displacements where what the output changes with
         pulls on them
     """
@@ -111,6 +113,8 @@ class Adjoint:
     stacks: tuple[TermStack, ...]
     bounds: dict[InterfaceSystem, BoundTerm]
     remembered: Array
+    behind: dict[int, Array] = field(default_factory=dict)
+    weights: dict[int, Weights] = field(default_factory=dict)
     pulled: dict[int, Array] = field(default_factory=dict)
 
     @cached_property

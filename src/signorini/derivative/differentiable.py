@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from signorini.derivative.derivative import Derivative, TapedHistory
+from signorini.derivative.derivative import Derivative
 from signorini.derivative.refusals import refuse_model
 from signorini.derivative.sensitivities import sensitivities
-from signorini.derivative.tangent import HistoryTangent
+from signorini.derivative.tangent import HistoryTangent, tangent, tangent_sides
+from signorini.derivative.taped_history import TapedHistory
 from signorini.engine.solve import raise_failure, solve
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
@@ -67,13 +69,21 @@ class DifferentiableHistory(History):
         Raises
         ------
         InputError
-            As `derivative`.
+            As `derivative`, and where it has two sides.
         """
-        if len(parameter) != 1:
-            raise InputError(f"has {len(parameter)} parameters; expected one, friction='contact'", where=("parameter",))
-        ((kind, name),) = parameter.items()
-        history = self._taped
-        return HistoryTangent(history, history.forward(kind, name), at)
+        return tangent(self._taped, *_one(parameter), at)
+
+    def tangent_sides(self, *, at: float | None = None, **parameter: str) -> tuple[HistoryTangent, HistoryTangent]:
+        """What one parameter changes downwards and upwards, parameters as of `tangent`; mostly the same.
+
+        They differ where pairs touch before anything is loaded, and at an event at the end.
+
+        Raises
+        ------
+        InputError
+            As `derivative`, and where one of both is not known.
+        """
+        return tangent_sides(self._taped, *_one(parameter), at)
 
     def sensitivities(self) -> Sensitivities:
         """Peak pressures, resultants, half-widths and dissipation by all that is given, per cent for per cent.
@@ -107,6 +117,13 @@ class DifferentiableHistory(History):
         tape = Tape()
         raise_failure(solve(self.model, tape=tape, raise_on_failure=False))
         return TapedHistory(tape, self.model)
+
+
+def _one(parameter: Mapping[str, str]) -> tuple[str, str]:
+    """Kind and name of one parameter."""
+    if len(parameter) != 1:
+        raise InputError(f"has {len(parameter)} parameters; expected one, friction='contact'", where=("parameter",))
+    return next(iter(parameter.items()))
 
 
 def tape_of(start: object) -> Tape:

@@ -8,7 +8,7 @@ for each parameter has to say so.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -17,7 +17,8 @@ from signorini.arrays import Array, IntArray
 from signorini.derivative.adjoint_terms import Adjoint, BoundTerm, Weights
 from signorini.derivative.points import TapePoint, with_trials
 from signorini.derivative.recursion import Change, backward, changed
-from signorini.derivative.validity import on_edge
+from signorini.derivative.validity import edge_words, on_edge
+from signorini.derivative.view import HistoryView
 
 _NOTHING_APART = 1e-11  # of what a parameter changes of all conditions there: of those on edges less is rounding
 
@@ -37,10 +38,31 @@ class EdgeProbe:
         """Whether the history has any edge."""
         return bool(self._on)
 
+    @property
+    def points(self) -> list[int]:
+        """Numbers of the points with edges."""
+        return list(self._on)
+
+    def conditions(self, i: int) -> IntArray:
+        """Numbers of the conditions on edges of a point that has some."""
+        return self._on[i]
+
+    def words(self, view: HistoryView, i: int) -> str:
+        """What happens at a point that has edges, and where."""
+        return edge_words(view, self._points[i], int(self._on[i][0]))
+
     def takes_apart(self, change: Change) -> bool:
         """Whether a parameter may take any edge apart; where it does not, that is sure up to rounding."""
         on_edges, of_all = (changed(self._every, adjoint, change) for adjoint in self._sums)
         return abs(on_edges) > _NOTHING_APART * abs(of_all)
+
+    def parted_by_gaps(self, numbers: Collection[int]) -> bool:
+        """Whether gaps of single pairs take edges apart at any of some points."""
+        on_edges, of_all = (
+            np.concatenate([stack.motion[:, 0].sum(axis=0) for stack in self._back(chosen).stacks])
+            for chosen in ({i: kept[i] for i in numbers} for kept in (self._on, self._whole))
+        )
+        return bool(np.abs(on_edges).max() > _NOTHING_APART * np.abs(of_all).max())
 
     @cached_property
     def _on(self) -> dict[int, IntArray]:
@@ -51,8 +73,12 @@ class EdgeProbe:
     @cached_property
     def _sums(self) -> tuple[Adjoint, Adjoint]:
         """The ways back of the conditions on edges, and of all at the same points."""
-        whole = {i: np.arange(len(self._points[i].conditions.pair)) for i in self._on}
-        return self._back(self._on), self._back(whole)
+        return self._back(self._on), self._back(self._whole)
+
+    @property
+    def _whole(self) -> dict[int, IntArray]:
+        """Numbers of all conditions, by number of the point, where there are edges."""
+        return {i: np.arange(len(self._points[i].conditions.pair)) for i in self._on}
 
     def _back(self, chosen: Mapping[int, IntArray]) -> Adjoint:
         """The way back of the sum of chosen conditions, by number of the point."""

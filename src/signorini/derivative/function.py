@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array
-from signorini.derivative.derivative import Derivative, TapedHistory
+from signorini.derivative.derivative import Derivative
 from signorini.derivative.functionals import value
 from signorini.derivative.modulus_pairs import with_material
 from signorini.derivative.parameters import given_value, names_of, split
 from signorini.derivative.step_friction import coefficients
+from signorini.derivative.taped_history import TapedHistory
 from signorini.engine.prepare import Prepared, prepare
 from signorini.engine.solve import solve_prepared
 from signorini.engine.tape import Tape

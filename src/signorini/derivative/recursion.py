@@ -9,7 +9,7 @@ that an event does comes by itself. Backwards the same in transposed steps: poin
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 from types import MappingProxyType
@@ -59,13 +59,14 @@ class PointChange:
     bound: BoundTerm | None
 
 
-def forward(points: Sequence[TapePoint], change: AtOnce) -> list[PointChange]:
+def forward(points: Sequence[TapePoint], change: AtOnce, remembered: Array) -> list[PointChange]:
     """What a parameter changes at every point.
 
     Parameters
     ----------
     points : of the history
     change : what the parameter changes at once
+    remembered : (d - 1, n) what it changes of tangential motions before the first point, length
     """
     found: list[PointChange] = []
     bounds: dict[InterfaceSystem, BoundTerm | None] = {}
@@ -75,13 +76,15 @@ def forward(points: Sequence[TapePoint], change: AtOnce) -> list[PointChange]:
         if point.system not in bounds:
             bounds[point.system] = change.bound(point.system)
         with point.determined():
-            found.append(_following(points, found, bounds[point.system], at_once))
+            memory = found[-1].h[1:] if found else remembered
+            found.append(_following(points, found, memory, bounds[point.system], at_once))
     return found
 
 
 def _following(
     points: Sequence[TapePoint],
     found: Sequence[PointChange],
+    memory: Array,
     bound: BoundTerm | None,
     at_once: Mapping[TapePoint, Array],
 ) -> PointChange:
@@ -91,6 +94,7 @@ def _following(
     ----------
     points : of the history
     found : what it changes at those before
+    memory : (d - 1, all pairs) what it changes of what is remembered, length
     bound : what it changes of the friction; None for nothing
     at_once : by point, (d n + k,) what its equations see of what moves at once; empty for nothing
     """
@@ -99,7 +103,6 @@ def _following(
     system = point.system
     system.ahead((points[j].system, points[j].states) for j in range(i, len(points)))
     whole = np.zeros((2, system.directions, len(system.condensed.active)))
-    memory = found[-1].h[1:] if found else np.zeros_like(whole[0, 1:])
     h, r = _at_load(point, at_once.get(point), memory, bound)
     if point.at_event:
         event = point.event
@@ -147,7 +150,10 @@ def _seen(points: Sequence[TapePoint], moved: Sequence[tuple[Array, Array]]) -> 
 
 
 def backward(
-    points: Sequence[TapePoint], weights: Mapping[int, Weights], direct: Mapping[int, Array] = MappingProxyType({})
+    points: Sequence[TapePoint],
+    weights: Mapping[int, Weights],
+    direct: Mapping[int, Array] = MappingProxyType({}),
+    stops: Collection[int] = (),
 ) -> Adjoint:
     """An output by everything that drives the points.
 
@@ -156,15 +162,16 @@ def backward(
     points : of the history
     weights : how the output changes with motions and forces, by number of the point
     direct : (d, a) per length, with motions of the active pairs directly, by number of the point
+    stops : numbers of points behind which it is asked what is remembered
     """
-    back = _Back(points, weights, direct)
+    back = _Back(points, weights, direct, stops)
     i = max(weights, default=-1)
     while i >= 0:
         with points[i].determined():
             i -= back.to(i)
     stacks = tuple(one.stack(direct) for one in back.passed.values() if one.numbers)
     bounds = {system: one.bound for system, one in back.passed.items()}
-    return Adjoint(stacks=stacks, bounds=bounds, remembered=back.remembered)
+    return Adjoint(stacks=stacks, bounds=bounds, remembered=back.remembered, behind=back.behind)
 
 
 def changed(points: Sequence[TapePoint], adjoint: Adjoint, change: Change) -> float:
@@ -189,12 +196,17 @@ class _Back:
     Attributes
     ----------
     passed : what of every system was passed
+    behind : as of `Adjoint`
     """
 
     def __init__(
-        self, points: Sequence[TapePoint], weights: Mapping[int, Weights], direct: Mapping[int, Array]
+        self,
+        points: Sequence[TapePoint],
+        weights: Mapping[int, Weights],
+        direct: Mapping[int, Array],
+        stops: Collection[int],
     ) -> None:
-        self._points, self._weights, self._direct = points, weights, direct
+        self._points, self._weights, self._direct, self._stops = points, weights, direct, stops
         self._steps: dict[InterfaceSystem, BlockSteps] = {}
         self._memory: Array | None = None  # (d - 1, n) of the active pairs of the system, scaled
         self._system: InterfaceSystem | None = None
@@ -204,6 +216,7 @@ class _Back:
         self._turned: Array | None = None
         self._place = {point: k for k, point in enumerate(with_trials(points))}
         self.passed: dict[InterfaceSystem, PassedPoints] = {}
+        self.behind: dict[int, Array] = {}
 
     @property
     def remembered(self) -> Array:
@@ -218,6 +231,8 @@ class _Back:
             self._memory, self._system = _handed(self._memory, self._system, system), system
             self.passed.setdefault(system, PassedPoints(system))
         assert self._memory is not None
+        if i in self._stops:
+            self.behind[i] = self.remembered
         asked = i in self._weights or i in self._direct or i in self._moves or self._turned is not None
         if not asked and not self._memory[~states.held].any():
             return 1
@@ -227,7 +242,12 @@ class _Back:
         """Pass point i in the plane and as many before it as go with it; how many that were, 0 where none do."""
         system, points, memory = self._points[i].system, self._points, self._memory
         assert memory is not None
-        numbers = list(takewhile(lambda j: points[j].system is system, range(i, max(-1, i - LONGEST_BLOCK), -1)))
+        numbers = list(
+            takewhile(
+                lambda j: points[j].system is system and (j == i or j not in self._stops),
+                range(i, max(-1, i - LONGEST_BLOCK), -1),
+            )
+        )
         if system not in self._steps:
             self._steps[system] = BlockSteps(system.law)
         own = [points[j] for j in numbers]

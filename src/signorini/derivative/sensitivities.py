@@ -6,9 +6,10 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, BoolArray
-from signorini.derivative.derivative import Derivative, TapedHistory
+from signorini.derivative.derivative import Derivative
 from signorini.derivative.functionals import value
 from signorini.derivative.parameters import given_value, names_of
+from signorini.derivative.taped_history import TapedHistory
 from signorini.derivative.view import HistoryView
 from signorini.errors import InputError
 from signorini.model.outputs import Output, dissipation, force, halfwidth, pressure

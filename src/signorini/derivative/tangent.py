@@ -9,11 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, IntArray
-from signorini.derivative.derivative import TapedHistory
 from signorini.derivative.functionals import weights
-from signorini.derivative.recursion import PointChange
+from signorini.derivative.recursion import Change, PointChange
+from signorini.derivative.taped_history import TapedHistory
+from signorini.derivative.tied_peaks import peak_nodes
+from signorini.derivative.touching_start import GapRate
+from signorini.derivative.validity import PathEdge
 from signorini.errors import InputError
-from signorini.model.outputs import Displacement, Output, Stress
+from signorini.model.outputs import AtNode, Displacement, Output, Peak, Stress, WeightedSum
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -36,6 +39,9 @@ class ContactTangent:
     motion: Array
 
 
+_SAME_MOTION = 1e-6  # of the largest: what is remembered to both sides of a parameter that has one tangent
+
+
 class HistoryTangent:
     """What one parameter changes of every answer.
 
@@ -44,10 +50,17 @@ class HistoryTangent:
     history : the history
     changes : what the parameter changes at every point
     load_factor : where it is asked for; None at the end
+    ways : 1 upwards, -1 downwards, or both
     """
 
-    def __init__(self, history: TapedHistory, changes: Sequence[PointChange], load_factor: float | None) -> None:
-        self._history, self._changes = history, changes
+    def __init__(
+        self,
+        history: TapedHistory,
+        changes: Sequence[PointChange],
+        load_factor: float | None,
+        ways: tuple[float, ...] = (-1.0, 1.0),
+    ) -> None:
+        self._history, self._changes, self._ways = history, changes, ways
         self._number = history.view.number(load_factor)
 
     def contact(self, name: str) -> ContactTangent:
@@ -72,8 +85,12 @@ class HistoryTangent:
         Raises
         ------
         InputError
-            For outputs of bodies: ask for the derivative of those.
+            For outputs of bodies, ask for the derivative of those; and where it has two sides.
         """
+        if isinstance(output, WeightedSum):
+            return sum(factor * self.of(part) for factor, part in output.parts)
+        if isinstance(output, Peak) and len(nodes := peak_nodes(output, self._history.view)) > 1:
+            return self._of_peak(nodes)
         if isinstance(output, Displacement | Stress):
             raise InputError(f"{output!r} is an output of bodies; ask for its derivative")
         found = 0.0
@@ -81,3 +98,58 @@ class HistoryTangent:
             change = self._changes[i]
             found += float(np.vdot(weight.h, change.h) + np.vdot(weight.r, change.r))
         return found
+
+    def _of_peak(self, nodes: Sequence[AtNode]) -> float:
+        """What it changes of the largest pressure, which several nodes have."""
+        rates = [self.of(node) for node in nodes]
+        low, high = min(rates), max(rates)
+        if len(self._ways) > 1 and high - low > _SAME_MOTION * (abs(high) + abs(low)):
+            words = f"nodes {nodes[0].node} and {nodes[1].node} of '{nodes[0].contact}' have the largest pressure alike"
+            raise InputError(f"{words}: what changes it has two sides; those of tangent_sides have one each")
+        return high if self._ways[-1] > 0.0 else low
+
+
+def tangent(history: TapedHistory, kind: str, name: str, load_factor: float | None) -> HistoryTangent:
+    """What one parameter changes of every answer.
+
+    Parameters
+    ----------
+    history : the history
+    kind, name : of the parameter
+    load_factor : where it is asked for; None at the end
+
+    Raises
+    ------
+    InputError
+        Where answers have two sides, or what happens is not known.
+    """
+    change, last = history.change(kind, name), history.view.number(load_factor)
+    why = [edge for edge in history.edges(change) if edge.point <= last]
+    why = why or _two_sides_at_start(history, change)
+    if why:
+        words = f"{why[0].words}: what '{kind}.{name}' changes has two sides there; tangent_sides({kind}='{name}')"
+        raise InputError(f"{words} gives both where that is known")
+    return HistoryTangent(history, history.forward(change, 1.0), load_factor)
+
+
+def tangent_sides(
+    history: TapedHistory, kind: str, name: str, load_factor: float | None
+) -> tuple[HistoryTangent, HistoryTangent]:
+    """What one parameter changes of every answer, downwards and upwards; parameters and errors as of `tangent`."""
+    change, last = history.change(kind, name), history.view.number(load_factor)
+    found = [edge for edge in history.edges(change) if edge.point <= last]
+    below, above = (
+        HistoryTangent(side, side.forward(change, way), load_factor if side is history else None, (way,))
+        for side, way in zip(history.beside(found, last, f"'{kind}.{name}'"), (-1.0, 1.0), strict=True)
+    )
+    return below, above
+
+
+def _two_sides_at_start(history: TapedHistory, change: Change) -> list[PathEdge]:
+    """Pairs that touch as the history begins, and remember something else on each side of a change; else nothing."""
+    start, gap = history.start, GapRate.of(change)
+    if not start.moved(gap).any():
+        return []
+    above, below = (start.memory(gap.times(way)) for way in (1.0, -1.0))
+    same = float(np.abs(above + below).max()) <= _SAME_MOTION * float(np.abs(above).max())
+    return [] if same else start.edges(history.view, gap)

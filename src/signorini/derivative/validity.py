@@ -92,11 +92,15 @@ def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0
                 else abs(grows) > _SHARED_EVENT * float(np.abs(grown).max())
             )
             if apart and abs(grows) > scale * max(_ZERO * moves, rounding):
-                named = np.array([k])
-                words = _words(view, point, point.conditions.pair[named], _what(point, named))(0)
-                words = words.replace("before load", "with another at load" if point.at_event else "at load")
-                found.append(PathEdge(point=i, condition=k, change=grows, words=words))
+                found.append(PathEdge(point=i, condition=k, change=grows, words=edge_words(view, point, k)))
     return found
+
+
+def edge_words(view: HistoryView, point: TapePoint, condition: int) -> str:
+    """What happens where a condition vanishes together with another, or at a load that is given."""
+    named = np.array([condition])
+    words = _words(view, point, point.conditions.pair[named], _what(point, named))(0)
+    return words.replace("before load", "with another at load" if point.at_event else "at load")
 
 
 def _conditions(

@@ -127,8 +127,7 @@ def relieved(P: Array, gap: Array, *, width: float) -> Array | None:
         return None
     if distance < _NOWHERE:
         return None
-    misfit = system @ multipliers - target
-    motion = -deepest * misfit[:-1] / misfit[-1]
+    motion = deepest * (P.T @ multipliers) / distance**2  # the misfit of the last row, without its cancellation
     return np.asarray(motion) if (gap + P @ motion >= -width).all() else None
 
 
