@@ -135,7 +135,19 @@ def tangent(history: TapedHistory, kind: str, name: str, load_factor: float | No
 def tangent_sides(
     history: TapedHistory, kind: str, name: str, load_factor: float | None
 ) -> tuple[HistoryTangent, HistoryTangent]:
-    """What one parameter changes of every answer, downwards and upwards; parameters and errors as of `tangent`."""
+    """What one parameter changes of every answer, downwards and upwards.
+
+    Parameters
+    ----------
+    history : the history
+    kind, name : of the parameter
+    load_factor : where it is asked for; None at the end
+
+    Raises
+    ------
+    InputError
+        Where one of both is not known.
+    """
     change, last = history.change(kind, name), history.view.number(load_factor)
     found = [edge for edge in history.edges(change) if edge.point <= last]
     below, above = (

@@ -38,7 +38,7 @@ from signorini.solution.sensitivities import Validity
 
 _SAME_CONDITION = 1e-12  # of the data of the law: by how much conditions differ between bodies that are the same
 _TWO_SIDES = 1e-6  # of a derivative: what those to both sides may differ by and still be the same up to differences
-_NOTHING = 1e-10  # of an output over what is given: a derivative that is none
+_NO_CHANGE = 1e-10  # of an output over what is given: a derivative that is as good as none
 _MOST_TIED = 20  # nodes whose pressures are followed one by one
 
 
@@ -117,7 +117,7 @@ class TapedHistory:
         return self._forward[change, way]
 
     def _upwards(self, change: Change) -> list[PointChange]:
-        """The same upwards; without what pairs do that touch as the history begins where that is not known."""
+        """What a change makes upwards; without what pairs do that touch as the history begins where it is not known."""
         try:
             return self.forward(change, 1.0)
         except InputError:
@@ -262,7 +262,7 @@ class DirectionalDerivative:
         """
         low = high = 0.0
         for tied, together in self._ties:
-            least = _NOTHING * abs(self.value) / size
+            least = _NO_CHANGE * abs(self.value) / size
             if max(abs(side) for side in together.to_sides(change, size, "that")) <= least:
                 continue
             if len(tied.others) > _MOST_TIED:
@@ -318,7 +318,7 @@ class DirectionalDerivative:
         return self._by_gaps()
 
     def _by_gaps(self) -> Array:
-        """The same, of one side where it has two."""
+        """The derivative by the gap of every pair, that to one side where it has two."""
         found = np.zeros(len(self._history.view.interface))
         for stack in self._adjoint.stacks:
             found[stack.system.active] += stack.motion[:, 0].sum(axis=0)

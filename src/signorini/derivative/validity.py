@@ -97,7 +97,14 @@ def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0
 
 
 def edge_words(view: HistoryView, point: TapePoint, condition: int) -> str:
-    """What happens where a condition vanishes together with another, or at a load that is given."""
+    """What happens where a condition vanishes together with another, or at a load that is given.
+
+    Parameters
+    ----------
+    view : the history
+    point : where that is
+    condition : its number there
+    """
     named = np.array([condition])
     words = _words(view, point, point.conditions.pair[named], _what(point, named))(0)
     return words.replace("before load", "with another at load" if point.at_event else "at load")
