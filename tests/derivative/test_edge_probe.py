@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pairs that share events: what takes them apart, asked of two ways back, as ways forwards have it."""
 
+import re
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 import signorini as sg
@@ -80,3 +84,47 @@ def test_a_largest_pressure_that_two_nodes_share_has_two_sides(solution):
     assert derivative.by("friction.joint") == pytest.approx(solution.tangent(friction="joint").of(peak), rel=1e-9)
     minus = solution.derivative(WeightedSum(parts=((-2.0, peak),)))
     assert minus.sides("load.one") == pytest.approx((-2.0 * low, -2.0 * high), rel=1e-12)
+
+
+def random_squeezed(seed, one=1.0):
+    """The same by a seed: crowned or flat, squeezed or pulled, mostly back again; ``one`` breaks its symmetry."""
+    random = np.random.default_rng(seed)
+    mesh = sg.rectangle(nx=int(random.choice([4, 6, 8])), ny=2, width=2.0, origin=(-1.0, 0.0))
+    x, y = mesh.points.T
+    crowned = np.column_stack([x, y + random.choice([0.0, 0.003, 0.01]) * x**2 * (1.0 - y)])
+    traction = random.choice([-1.0, 1.0]) * random.uniform(5.0, 40.0)
+    model, again = squeezed(), random.uniform(-1.0, 0.9)
+    scales = [(one, 1.0), (again * one, again)][: 1 + (random.random() < 0.7)]
+    return replace(
+        model,
+        mesh=replace(mesh, points=crowned),
+        loads=[
+            sg.Load("left", traction=(traction, 0.0), name="one"),
+            sg.Load("right", traction=(-traction, 0.0), name="other"),
+        ],
+        contacts=[replace(model.contacts[0], friction=random.uniform(0.1, 0.7))],
+        steps=[
+            model.steps[0],
+            *(sg.Step(scale=dict(zip(("one", "other"), part, strict=True)), path="exact") for part in scales),
+        ],
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(6))
+def test_what_breaks_a_symmetry_has_the_derivatives_of_differences_or_is_refused_by_name(seed):
+    solution, step, refused = sg.solve(random_squeezed(seed), tape=True), 1e-6, []
+    low, high = (sg.solve(random_squeezed(seed, 1.0 + part), tape=True) for part in (-step, step))
+    nodes = solution.steps[-1].contacts[0].node[:2]
+    peak, force = sg.pressure("joint").peak, sg.force("joint", along=(1, 0))
+    for output in (peak, force, sg.dissipation(), *(sg.traction("joint")[node] for node in nodes)):
+        derivative = solution.derivative(output)
+        below, above = (part.derivative(output).value - derivative.value for part in (low, high))
+        try:
+            sides = derivative.sides("load.one")
+        except sg.InputError as error:
+            refused.append(str(error))
+            continue
+        assert sides == pytest.approx((-below / step, above / step), rel=1e-5, abs=1e-5)
+    assert len(refused) <= 3
+    assert all(re.search("with another at load factor .* on the other side is not known", why) for why in refused)

@@ -24,11 +24,15 @@ from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
 from signorini.derivative.body_side import BodySide, multiplier
 from signorini.derivative.contact_sums import ContactSums
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.low_rank import StateColumns, of_same_bodies, state_columns
+from signorini.derivative.low_rank import StateColumns, combinations_of, of_same_bodies, state_columns
 from signorini.derivative.pair_change import PairChange
 from signorini.derivative.points import TapePoint
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
+from signorini.fem.kinematics import straining_groups
+from signorini.fem.node_work import Products, add_node_work
+
+_FEW = 3  # points of a history whose adjoint displacements are found one by one
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,6 +45,7 @@ class BodyChange:
     low, high : bodies and pairs at both sides
     step : half of what the parameter differs by between them
     tilts : whether pairs may see the bodies otherwise
+    motion : (nodes, d) that moves the nodes, length per unit; None where they stay
     """
 
     prepared: Prepared
@@ -48,6 +53,7 @@ class BodyChange:
     high: BodySide
     step: float
     tilts: bool
+    motion: Array | None = None
     _moved: dict[TapePoint, tuple[Array, Array]] = field(default_factory=dict, init=False)
 
     @cached_property
@@ -102,8 +108,43 @@ class BodyChange:
         for own in of_same_bodies(points, adjoint):
             many = ContactSums.knows(points[own[0]].system, len(own))
             found_at_once = self._by_sums(points, own, adjoint) if many else None
-            found += self._by_states(points, own, adjoint) if found_at_once is None else found_at_once
+            if found_at_once is None:
+                few = len(own) <= _FEW and self._by_cells
+                found_at_once = (self._by_combinations if few else self._by_states)(points, own, adjoint)
+            found += found_at_once
         return found
+
+    def _by_combinations(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:
+        """What it changes through a few points of the same bodies, by adjoint and actual displacements."""
+        found = 0.0
+        for columns in combinations_of(points, own, adjoint):
+            w, u, k = columns.adjoint, columns.displacement, len(columns.one)
+            if self.pairs is not None:
+                forces = columns.forces.reshape(-1, k)
+                moved = self.pairs.motions(columns.system, u, forces, columns.one)
+                found += float(np.vdot(columns.motion.reshape(-1, k), moved))
+                found += float(np.vdot(self.pairs.on_bodies(columns.system, forces), w))
+            for name, f in self.loads.items():
+                found += float(f @ (w @ columns.factor(name)))
+            found -= self._of_cells(Products.of(w, u))
+        return found
+
+    @cached_property
+    def _by_cells(self) -> bool:
+        """Whether cells tell what moving their nodes changes of the work of their stresses."""
+        model = self.prepared.model
+        return (
+            self.motion is not None
+            and not model.foundations
+            and all(group.formulation == "standard" for group in straining_groups(self.prepared.space, model))
+        )
+
+    def _of_cells(self, products: Products) -> float:
+        """``sum w . K' u`` where nodes move."""
+        assert self.motion is not None
+        found = np.zeros_like(self.motion)
+        add_node_work(found, self.prepared.space, self.prepared.model, products)
+        return float(np.vdot(found, self.motion))
 
     def _by_sums(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float | None:
         """What it changes through points of the same bodies; None where pairs see more than their contact nodes."""
@@ -119,7 +160,8 @@ class BodyChange:
             found += float(J[: system.pairs].sum(axis=1) @ self.pairs.gap[rows])
         for name in self.loads.keys() & sums.weighted.keys():
             found += float(self.loads[name] @ sums.weighted[name])
-        return found - sums.of_stiffness(self.stiffness)
+        by_cells = self._by_cells and not len(self.prepared.constraints.dependent)
+        return found - (self._of_cells(sums.of_cells(1.0)) if by_cells else sums.of_stiffness(self.stiffness))
 
     def _by_states(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:
         """What it changes through points of the same bodies, by displacements of their states."""

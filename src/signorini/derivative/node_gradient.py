@@ -97,8 +97,7 @@ def _sums(view: HistoryView, own: Sequence[int], adjoint: Adjoint, rows: sp.csr_
     rows : (k, dofs) of displacements that pairs may see
     """
     system = view.every[own[0]].system
-    equations = (system.prepared.constraints.free == -2).any()  # give dofs from others
-    if equations or view.model.foundations or not ContactSums.knows(system, len(own)):
+    if len(system.prepared.constraints.dependent) or view.model.foundations or not ContactSums.knows(system, len(own)):
         return None
     sums = ContactSums(view.every, own, adjoint)
     return sums if sums.meets(rows) else None

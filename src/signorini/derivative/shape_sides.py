@@ -113,7 +113,12 @@ class ShapeSides:
         """Differences from one part of the step to another."""
         low, high = self._side(first), self._side(last)
         return BodyChange(
-            prepared=self.prepared, low=low, high=high, step=0.5 * (last - first) * self._step, tilts=True
+            prepared=self.prepared,
+            low=low,
+            high=high,
+            step=0.5 * (last - first) * self._step,
+            tilts=True,
+            motion=self.motion,
         )
 
     @cached_property

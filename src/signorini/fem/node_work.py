@@ -110,25 +110,50 @@ def _by_differences(space: Space, model: Model, group: Group, products: Products
 
 
 @part(fastmath={"reassoc", "contract"})
-def _products(cell: IntArray, c: int, products: Products, M: Array) -> None:
-    """Overwrite M, (k c, k c), by the sums of products of all displacements of the nodes of a cell."""
+def _products(cell: IntArray, c: int, products: Products, place: IntArray, M: Array) -> None:
+    """Overwrite M, (k c, k c), by the sums of products of all displacements of the nodes of a cell.
+
+    Parameters
+    ----------
+    cell, c : its nodes, and components of a displacement
+    products : of displacements
+    place : (rows of the sums,) scratch, -1 everywhere
+    M : overwritten
+    """
     w, u, free, indptr, indices, data = products
-    columns = w.shape[1]
-    for a in range(len(cell)):
-        for r in range(c):
-            row = cell[a] * c + r
-            for b in range(len(cell)):
-                for s in range(c):
-                    other = cell[b] * c + s
-                    total = 0.0
-                    for k in range(columns):
-                        total += w[row, k] * u[other, k]
-                    if free[row] >= 0 and free[other] >= 0:
-                        for p in range(indptr[free[row]], indptr[free[row] + 1]):
-                            if indices[p] == free[other]:
-                                total += data[p]
-                                break
-                    M[a * c + r, b * c + s] = total
+    columns, size, shared = w.shape[1], len(cell) * c, False
+    for i in range(size):
+        row = free[cell[i // c] * c + i % c]
+        if row >= 0:
+            shared = shared or place[row] >= 0  # dofs that move together
+            place[row] = i
+    for i in range(size):
+        row = cell[i // c] * c + i % c
+        for j in range(size):
+            other = cell[j // c] * c + j % c
+            M[i, j] = 0.0
+            for k in range(columns):
+                M[i, j] += w[row, k] * u[other, k]
+        if free[row] < 0:
+            continue
+        for p in range(indptr[free[row]], indptr[free[row] + 1]):
+            if place[indices[p]] < 0:
+                continue
+            if not shared:
+                M[i, place[indices[p]]] += data[p]
+                continue
+            for j in range(size):
+                if free[cell[j // c] * c + j % c] == indices[p]:
+                    M[i, j] += data[p]
+    for i in range(size):
+        if free[cell[i // c] * c + i % c] >= 0:
+            place[free[cell[i // c] * c + i % c]] = -1
+
+
+@part()
+def _no_places(products: Products) -> IntArray:
+    """(rows of the sums,) -1."""
+    return np.full(max(0, len(products.indptr) - 1), -1)
 
 
 @kernel()
@@ -141,9 +166,9 @@ def _of_cells(cells: IntArray, c: int, products: Products) -> Array:
     products : of displacements
     """
     size = cells.shape[1] * c
-    found = np.empty((len(cells), size, size))
+    found, place = np.empty((len(cells), size, size)), _no_places(products)
     for t in range(len(cells)):
-        _products(cells[t], c, products, found[t])
+        _products(cells[t], c, products, place, found[t])
     return found
 
 
@@ -175,11 +200,14 @@ def _add(
     entries, moduli = law
     nodes, hoop = cells.shape[1], moduli.shape[1] > 0 and entries[:, 2].max() == d
     e = d + 1 if hoop else d
+    summed = len(products.data) > 0 or products.w.shape[1] > nodes  # of few columns slopes are cheaper than products
     M, g, x = np.empty((nodes * c, nodes * c)), np.empty(nodes * e), np.empty((nodes, d))
+    place = _no_places(products)
     J, I = np.eye(3), np.empty((3, 3))  # noqa: E741
     T, H, Q = np.empty((c, e, nodes * c)), np.empty((c, e, c, e)), np.empty((d, e))
     for t in range(len(cells)):
-        _products(cells[t], c, products, M)
+        if summed:
+            _products(cells[t], c, products, place, M)
         for a in range(nodes):
             for m in range(d):
                 x[a, m] = points[cells[t, a], m]
@@ -191,7 +219,10 @@ def _add(
                     radius += values[q, a] * x[a, 0]
                 for a in range(nodes):
                     g[a * e + d] = values[q, a] / radius
-            _slopes(M, g, nodes, T, H)
+            if summed:
+                _slopes(M, g, nodes, T, H)
+            else:
+                _slopes_of_columns(cells[t], products, g, T, H)
             work = 0.0
             Q[:] = 0.0
             for n in range(len(entries)):
@@ -212,6 +243,35 @@ def _add(
                     if hoop and m == 0:
                         part += (work - Q[0, d]) * g[b * e + d]
                     found[cells[t, b], m] += volume * part
+
+
+@part()
+def _slopes_of_columns(cell: IntArray, products: Products, g: Array, T: Array, H: Array) -> None:
+    """Overwrite H, (c, e, c, e), by the products of all slopes of both displacements of a cell, from their columns.
+
+    Parameters
+    ----------
+    cell : (k,) nodes
+    products : of displacements, without sums
+    g : (k e,) gradients of shape functions
+    T : scratch, as of `_slopes`
+    H : overwritten
+    """
+    c, e = H.shape[:2]
+    H[:] = 0.0
+    for k in range(products.w.shape[1]):
+        T[:, :, :2] = 0.0
+        for a in range(len(cell)):
+            for r in range(c):
+                w, u = products.w[cell[a] * c + r, k], products.u[cell[a] * c + r, k]
+                for i in range(e):
+                    T[r, i, 0] += g[a * e + i] * w
+                    T[r, i, 1] += g[a * e + i] * u
+        for r in range(c):
+            for i in range(e):
+                for s in range(c):
+                    for j in range(e):
+                        H[r, i, s, j] += T[r, i, 0] * T[s, j, 1]
 
 
 @part()
