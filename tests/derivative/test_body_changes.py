@@ -86,4 +86,6 @@ def test_sums_over_contact_nodes_are_those_over_displacements_of_all_states(kind
     by_sums = found()
     monkeypatch.setattr(contact_sums, "_SUBSTITUTED", np.inf)
     solution.__dict__.pop("_taped")
-    assert np.array(by_sums) == pytest.approx(np.array(found()), rel=1e-8)
+    for one, other in zip(by_sums, found(), strict=True):
+        assert one[:2] == pytest.approx(other[:2], rel=1e-8)
+        assert one[2:] == pytest.approx(other[2:], rel=1e-7)  # sums see cells exactly, states by differences

@@ -224,9 +224,11 @@ def _add(
             else:
                 _slopes_of_columns(cells[t], products, g, T, H)
             work = 0.0
-            Q[:] = 0.0
+            for m in range(d):
+                for i in range(e):
+                    Q[m, i] = 0.0
             for n in range(len(entries)):
-                r, s, i, j = entries[n]
+                r, s, i, j = entries[n, 0], entries[n, 1], entries[n, 2], entries[n, 3]
                 modulus = moduli[material[t], n]
                 work += modulus * H[r, i, s, j]
                 for m in range(d):
@@ -234,7 +236,8 @@ def _add(
                         Q[m, i] += modulus * H[r, m, s, j]
                     if j < d:
                         Q[m, j] += modulus * H[r, i, s, m]
-                Q[0, d:] += modulus * H[r, i, s, j] * ((i == d) + (j == d))
+                if hoop:
+                    Q[0, d] += modulus * H[r, i, s, j] * ((i == d) + (j == d))
             for b in range(nodes):
                 for m in range(d):
                     part = work * g[b * e + m]
@@ -258,36 +261,35 @@ def _slopes_of_columns(cell: IntArray, products: Products, g: Array, T: Array, H
     H : overwritten
     """
     c, e = H.shape[:2]
-    H[:] = 0.0
     for k in range(products.w.shape[1]):
-        T[:, :, :2] = 0.0
-        for a in range(len(cell)):
-            for r in range(c):
-                w, u = products.w[cell[a] * c + r, k], products.u[cell[a] * c + r, k]
-                for i in range(e):
-                    T[r, i, 0] += g[a * e + i] * w
-                    T[r, i, 1] += g[a * e + i] * u
+        for r in range(c):
+            for i in range(e):
+                slope, other = 0.0, 0.0
+                for a in range(len(cell)):
+                    slope += g[a * e + i] * products.w[cell[a] * c + r, k]
+                    other += g[a * e + i] * products.u[cell[a] * c + r, k]
+                T[r, i, 0], T[r, i, 1] = slope, other
         for r in range(c):
             for i in range(e):
                 for s in range(c):
                     for j in range(e):
-                        H[r, i, s, j] += T[r, i, 0] * T[s, j, 1]
+                        H[r, i, s, j] = (H[r, i, s, j] if k else 0.0) + T[r, i, 0] * T[s, j, 1]
 
 
 @part()
 def _slopes(M: Array, g: Array, nodes: int, T: Array, H: Array) -> None:
     """Overwrite H, (c, e, c, e), by the products of all slopes of both displacements at a point; T is scratch."""
     c, e = H.shape[:2]
-    T[:] = 0.0
-    H[:] = 0.0
-    for a in range(nodes):
-        for r in range(c):
-            for i in range(e):
-                for column in range(nodes * c):
-                    T[r, i, column] += g[a * e + i] * M[a * c + r, column]
     for r in range(c):
         for i in range(e):
-            for b in range(nodes):
-                for s in range(c):
-                    for j in range(e):
-                        H[r, i, s, j] += g[b * e + j] * T[r, i, b * c + s]
+            for column in range(nodes * c):
+                total = 0.0
+                for a in range(nodes):
+                    total += g[a * e + i] * M[a * c + r, column]
+                T[r, i, column] = total
+            for s in range(c):
+                for j in range(e):
+                    total = 0.0
+                    for b in range(nodes):
+                        total += g[b * e + j] * T[r, i, b * c + s]
+                    H[r, i, s, j] = total
