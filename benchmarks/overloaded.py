@@ -36,6 +36,7 @@ import scipy
 
 import signorini as sg
 from benchmarks import command, page
+from signorini.condense.operator import Single
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.errors import InputError, SolveFailed
@@ -182,9 +183,10 @@ def counted() -> Iterator[Work]:
         return 0.0
 
     with (
-        wrapped(newton, "linear_system", lambda _a, _k, found: 2.0 / 3.0 * len(found.matrix) ** 3),
+        wrapped(newton, "linear_system", lambda _a, _k, found: 2.0 / 3.0 * len(found.lu) ** 3),
         wrapped(krylov, "symmetric_product", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
-        wrapped(krylov, "softened", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
+        wrapped(Single, "product", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
+        wrapped(Single, "solve", lambda a, _k, _f: 2.0 * len(a[1]) ** 2),
         wrapped(proximal, "gauss_seidel", lambda a, k, _f: 2.0 * k["count"] * (3 * a[0].pairs) ** 2),
         wrapped(scipy.optimize, "linprog", programme),
         wrapped(held.StickingResponse, "of", held_form),

@@ -45,33 +45,40 @@ def test_same_answers_and_paths_as_one_process(number):
 @with_ranks
 @pytest.mark.slow
 @pytest.mark.parametrize("cut", ["scattered nodes", "the contact on one"])
-def test_answers_do_not_depend_on_where_nodes_are(cut):
+@pytest.mark.parametrize("how", [[], ["--twice"]])
+def test_answers_do_not_depend_on_where_nodes_are_and_how_often_they_are_eliminated(cut, how):
     assert cut in WAYS
     names = ["cubes", "mortar", "several steps", "held by contact alone", "tied"]
-    done = on_ranks(3, "-m", "tests.helpers.on_ranks", "--backend", "mumps", *names, "--cut", cut)
+    names += ["a rigid body that contact alone holds"]
+    done = on_ranks(3, "-m", "tests.helpers.on_ranks", "--backend", "mumps", *names, "--cut", cut, *how)
     assert done.returncode == 0, done.stderr
     for found in json.loads(done.stdout).values():
         held(found)
 
 
 @with_petsc
-@pytest.mark.parametrize("name", ["cubes", "mortar", "a rigid body that contact alone holds"])
-def test_factors_are_those_of_one_process(name):
-    """Condensed stiffness or compliance, condensed loads, several at once, and displacements again."""
+@pytest.mark.parametrize("twice", [False, True])
+@pytest.mark.parametrize("name", ["cubes", "mortar", "tied", "a rigid body that contact alone holds"])
+def test_factors_are_those_of_one_process(name, twice, monkeypatch):
+    """What the bodies yield, condensed loads, several at once, and displacements again; factorised once or twice."""
+    from signorini.distributed import factors
+
+    monkeypatch.setattr(factors, "_WIDE", -1 if twice else np.inf)
     model = (MODELS | CONDENSED)[name]()
-    here, there = (prepare(model, backend=backend).solver.condensed.factorisation for backend in ("auto", "mumps"))
+    one, two = (prepare(model, backend=backend).solver.condensed.response for backend in ("auto", "mumps"))
+    here, there = one.factorisation, two.factorisation
     assert (there.name, there.n, there.m) == ("mumps", here.n, here.m)
     random = np.random.default_rng(2)
 
     def same(found, expected):
-        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max(initial=0.0))
 
-    same(there.schur(), here.schur())
+    same(two.compliance(), one.compliance())
     for shape in ((), (3,)):
         f, kept = random.standard_normal((here.n, *shape)), random.standard_normal((here.m, *shape))
-        one, two = here.reduce(f), there.reduce(f)
-        same(two.load, one.load)
-        same(two.expand(kept), one.expand(kept))
+        first, second = here.reduce(f), there.reduce(f)
+        same(second.load, first.load)
+        same(second.expand(kept), first.expand(kept))
 
 
 def nothing(_team):
@@ -79,22 +86,24 @@ def nothing(_team):
 
 
 @with_petsc
-def test_the_condensed_interface_stays_where_mumps_has_left_it():
+@pytest.mark.parametrize("twice", [False, True])
+def test_the_condensed_interface_stays_where_mumps_has_left_it(twice, monkeypatch):
     """MPI would copy it three times and does not take more than 2 GB; it is there as long as somebody has it."""
+    from signorini.distributed import factors
     from signorini.distributed.ranks import the_team
 
-    factors = prepare(cubes(2), backend="mumps").solver.condensed.factorisation
-    S, team = factors.schur(), the_team()
-    assert S is team.held[max(team.held)].made.condensed
-    assert not S.flags.owndata
-    expected = S.copy()
-    held = weakref.ref(team.held[max(team.held)])
-    del factors
+    monkeypatch.setattr(factors, "_WIDE", -1 if twice else np.inf)
+    condensed, team = prepare(cubes(2), backend="mumps").solver.condensed, the_team()
+    left, X = condensed.response.left, condensed.response.compliance()
+    assert not left.flags.owndata
+    assert np.shares_memory(condensed.image.factor, left)
+    expected, held = left.copy(), weakref.ref(team.held[max(team.held)])
+    del condensed
     gc.collect()
     team.everywhere(nothing)
     assert held() is None
-    np.testing.assert_array_equal(S, expected)
-    np.testing.assert_array_equal(S, S.T)
+    np.testing.assert_array_equal(left, expected)
+    np.testing.assert_array_equal(X, X.T)
 
 
 @with_petsc

@@ -1,7 +1,7 @@
 """Models that ranks solve, and what they say of them: ``mpiexec -n 2 python -m tests.helpers.on_ranks NAME ...``.
 
-With ``--backend mumps`` they are factorised, and steps go as they do by themselves; with ``--cut WAY`` nodes or pairs
-are where no METIS and no even share would have them.
+With ``--backend mumps`` they are factorised, and steps go as they do by themselves, with ``--twice`` as if pairs were
+many; with ``--cut WAY`` nodes or pairs are where no METIS and no even share would have them.
 """
 
 import argparse
@@ -191,7 +191,12 @@ def main():
     parser.add_argument("names", nargs="*", help="models; all of them where none is named")
     parser.add_argument("--cut", choices=WAYS)
     parser.add_argument("--backend", default="petsc")
+    parser.add_argument("--twice", action="store_true")
     options = parser.parse_args()
+    if options.twice:
+        from signorini.distributed import factors  # needs PETSc
+
+        factors._WIDE = -1
     with sg.ranks() as first:
         if first:
             placed(options.cut)

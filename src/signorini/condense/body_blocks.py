@@ -79,7 +79,11 @@ class BodyBlocks:
             seen = np.flatnonzero(np.diff(own.indptr))
             own = own if len(seen) == len(result) else own[seen]
             inverse = inverse_of(part.cholesky) if part.inverse is None else part.inverse
-            moved = own @ np.ascontiguousarray((own @ inverse.T).T)
+            half = own @ inverse.T
+            del inverse  # as large as what is made of it, like all below
+            half = np.ascontiguousarray(half.T)
+            moved = own @ half
+            del half
             if len(seen) == len(result):
                 result += moved
             else:
@@ -96,7 +100,7 @@ def make_body_blocks(stiffness: Array, ties: Array, rigid: Array, *, size: float
 
     Parameters
     ----------
-    stiffness : (m, m) S, symmetric
+    stiffness : (m, m) S, symmetric; overwritten
     ties : (t, m) B_t on the contact dofs, independent rows
     rigid : (m, k) rigid motions that neither supports nor ties resist
     size : of a stiffness, for springs and ties
@@ -115,9 +119,9 @@ def make_body_blocks(stiffness: Array, ties: Array, rigid: Array, *, size: float
     ([[0], [1]], [0.25, 0.0])
     """
     if len(ties):
-        stiffness = stiffness + size * (ties.T @ ties)
+        stiffness += size * (ties.T @ ties)
     blocks = tuple(_block(stiffness, dofs, rigid[dofs], size) for dofs in independent(stiffness))
-    untied = BodyBlocks(blocks=blocks, across=np.zeros((len(stiffness), 0)), gram=np.zeros((0, 0)))
+    untied = BodyBlocks(blocks=blocks, across=np.zeros((len(rigid), 0)), gram=np.zeros((0, 0)))
     if not len(ties):
         return untied
     across = untied.solve(ties.T)
@@ -145,10 +149,11 @@ def independent(matrix: Array) -> list[IntArray]:
 
 
 def _block(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> BodyBlock:
-    """One block, held by springs where it floats."""
+    """One block, held by springs where it floats; in the memory of the stiffness where that has no other."""
     first, last = dofs[0], dofs[-1] + 1
     together = last - first == len(dofs)
-    matrix = np.array((stiffness[first:last, first:last] if together else stiffness[np.ix_(dofs, dofs)]).T, order="F")
+    own = stiffness[first:last, first:last] if together else stiffness[np.ix_(dofs, dofs)]
+    matrix = stiffness.T if len(dofs) == len(stiffness) else np.array(own.T, order="F")
     if rigid.any():
         Q, triangle, _ = scipy.linalg.qr(rigid, mode="economic", pivoting=True)
         left = np.abs(np.diag(triangle))

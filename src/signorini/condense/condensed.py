@@ -275,10 +275,12 @@ def condense(
         B_c, K_c = kept.contact, kept.block(K)
         if response is None:
             size = float(K_c.diagonal().mean()) if K_c.nnz else stiffness
-            parts = make_body_blocks(factorisation.schur(), kept.tied, rigid[dofs], size=size)
+            S, factorisation = factorisation.parted()
+            parts = make_body_blocks(S, kept.tied, rigid[dofs], size=size)
+            del S
             parts = parts.inverted() if len(bodies.kept) else parts
             response = ByNodes(factorisation=factorisation, parts=parts, B=B_c, rigid=rigid[dofs])
-        found = _seen_by(active, interface, response, (K_c, B_c), stiffness)
+        found = _seen_by(active, interface, response, (K_c, B_c), stiffness, room=response.room)
         return Condensed(held=kept.held, dofs=dofs, ties=ties, K=K_c, **found)
 
 
@@ -289,6 +291,7 @@ def _seen_by(
     contact: tuple[sp.csr_array, sp.csr_array],
     stiffness: float,
     near: Array | None = None,
+    room: Array | None = None,
 ) -> dict[str, Any]:
     """What active pairs make of the response of the bodies, as fields of `Condensed`; the arguments as there.
 
@@ -297,16 +300,17 @@ def _seen_by(
     active, interface, response, stiffness : as of `Condensed` and `condense`
     contact : K between the contact dofs, and B of the active pairs
     near : (a,) by what roots of D are less; None: by nothing
+    room : of a response that nobody has asked for it, see `InterfaceOperator.of_compliance`
     """
     K, B = contact
     root = np.sqrt(interface_stiffness(K, B, interface, np.flatnonzero(active), stiffness))
     root = root if near is None else near * root
     compliance = interface.compliance[:, active]
-    image = _image(response, root, compliance)
+    image = _image(response, root, compliance, room)
     return {"response": response, "active": active, "root": root, "B": B, "compliance": compliance, **image}
 
 
-def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]:
+def _image(response: Response, root: Array, compliance: Array, room: Array | None = None) -> dict[str, Any]:
     """Compliance and rigid motions, scaled by the roots of D."""
     scale = np.tile(root, len(compliance))
     motions = scale[:, None] * response.motions
@@ -319,4 +323,5 @@ def _image(response: Response, root: Array, compliance: Array) -> dict[str, Any]
         raise np.linalg.LinAlgError("contact hardly resists a rigid motion")
     leaning = basis.project(A)
     A.flags.writeable = motions.flags.writeable = False
-    return {"image": InterfaceOperator.of_compliance(A, motions, basis.R), "_basis": basis, "_leaning": leaning}
+    image = InterfaceOperator.of_compliance(A, motions, basis.R, room)
+    return {"image": image, "_basis": basis, "_leaning": leaning}

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,12 +26,12 @@ from signorini.condense.body_blocks import inverse_of
 from signorini.errors import InputError
 
 SingleArray = NDArray[np.float32]
-Precision = TypeVar("Precision", Array, SingleArray)
 
 UNRESISTED = 1e-14
 """Stiffness, relative to the interface stiffness D, below which a motion counts as rigid."""
 
 _SOFTNESS = 0.1  # of the mean diagonal of A
+_TILE = 256  # rows and columns of a triangle that are copied at once
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -99,21 +99,20 @@ class InterfaceOperator:
         return cls(motions=motions, R=R, by_form=True)._knowing(W=W)
 
     @classmethod
-    def of_compliance(cls, A: Array, motions: Array, R: Array) -> InterfaceOperator:
+    def of_compliance(cls, A: Array, motions: Array, R: Array, room: Array | None = None) -> InterfaceOperator:
         """The interface of a given compliance A, (m, m), symmetric, with ``A R = 0``; nothing is copied.
 
         Parameters
         ----------
         motions : (k, m) rigid motions as the pairs see them, scaled
+        room : (m, m) whose upper triangle and diagonal the factor takes; None: it has room of its own
 
         Raises
         ------
         LinAlgError
             Where I + A is not positive definite.
         """
-        result = cls(motions=motions, R=R)._knowing(A=A)
-        _ = result.factor
-        return result
+        return cls(motions=motions, R=R)._knowing(A=A, factor=_cholesky(A, room))
 
     def _knowing(self, **known: Array) -> InterfaceOperator:
         """This operator with what is given where cached properties keep their values."""
@@ -138,8 +137,8 @@ class InterfaceOperator:
 
     @cached_property
     def factor(self) -> Array:
-        """(m, m) Lower Cholesky factor of I + A, by columns."""
-        return _cholesky(self.A, 1.0)
+        """(m, m) Lower Cholesky factor of I + A, by columns; above the diagonal anything."""
+        return _cholesky(self.A)
 
     @cached_property
     def W(self) -> Array:
@@ -165,11 +164,9 @@ class InterfaceOperator:
         return np.asarray(~(self.A.any(axis=1) | self.R.any(axis=1)), dtype=np.bool_)
 
     @cached_property
-    def single(self) -> tuple[SingleArray, SingleArray, float]:
-        """A and the lower Cholesky factor of ``A + softness I``, (m, m), in single precision; softness: some of A."""
-        A = self.A.astype(np.float32)
-        softness = _SOFTNESS * float(self.A.trace()) / max(1, len(A)) or 1.0
-        return A, _cholesky(A, softness), softness
+    def single(self) -> Single:
+        """A and a factor of ``A + softness I`` in single precision; softness: some of A."""
+        return Single.of(self.A, _SOFTNESS * float(self.A.trace()) / max(1, len(self.A)) or 1.0)
 
     def free_motion(self, b: Array) -> Array:
         """(m,) Motion c of the pairs under the load alone, without its rigid part."""
@@ -185,16 +182,74 @@ class InterfaceOperator:
         return softened(self.factor, free - self.R @ (self.R.T @ free)) + self.R @ resultant
 
 
-def softened(factor: Array | SingleArray, x: Array) -> Array:
-    """``(softness I + A)^-1 x`` by the lower Cholesky factor of that matrix, in its precision.
+class Single(NamedTuple):
+    """A compliance A and a factor of ``A + softness I`` in single precision, in one matrix.
+
+    Attributes
+    ----------
+    matrix : (m, m) by columns: A on the diagonal and above it; below it L of ``L D L^T = A + softness I``
+    pivots : (m,) D; L has ones on its diagonal
+    softness : what is added
+    """
+
+    matrix: SingleArray
+    pivots: SingleArray
+    softness: float
+
+    @staticmethod
+    def of(A: Array, softness: float) -> Single:
+        """Factorise.
+
+        Parameters
+        ----------
+        A : (m, m) symmetric
+        softness : > 0
+
+        Raises
+        ------
+        LinAlgError
+            Where that is not positive definite.
+
+        Examples
+        --------
+        >>> soft = Single.of(np.array([[3.0, 4.0], [4.0, 7.0]]), 1.0)
+        >>> soft.product(np.array([2.0, 4.0])).tolist(), soft.solve(np.array([8.0, 12.0])).tolist()
+        ([22.0, 36.0], [1.0, 1.0])
+        """
+        matrix = np.array(A.T, dtype=np.float32, order="F")
+        diagonal = matrix.diagonal().copy()
+        matrix[np.diag_indices_from(matrix)] += softness
+        _factorise(matrix)
+        root = matrix.diagonal().copy()
+        for first in range(0, len(matrix), _TILE):
+            some = slice(first, first + _TILE)
+            matrix[first + _TILE :, some] /= root[some]
+            block = matrix[some, some]
+            block[:] = np.triu(block, 1) + np.tril(block, -1) / root[some]
+        matrix[np.diag_indices_from(matrix)] = diagonal
+        return Single(matrix, root**2, softness)
+
+    def product(self, x: Array) -> Array:
+        """``A x``, (m,)."""
+        return symmetric_product(self.matrix, x)
+
+    def solve(self, x: Array) -> Array:
+        """``(A + softness I)^-1 x``, (m,)."""
+        if not len(x):
+            return x
+        half = blas.strsv(self.matrix, x, lower=1, diag=1) / self.pivots
+        return np.asarray(blas.strsv(self.matrix, half, lower=1, trans=1, diag=1), dtype=np.float64)
+
+
+def softened(factor: Array, x: Array) -> Array:
+    """``(I + A)^-1 x`` by the lower Cholesky factor of that matrix.
 
     >>> softened(np.array([[2.0]]), np.array([8.0])).tolist()
     [2.0]
     """
     if not len(x):
         return x
-    trsv = blas.strsv if factor.dtype == np.float32 else blas.dtrsv
-    return np.asarray(trsv(factor, trsv(factor, x, lower=1), lower=1, trans=1), dtype=np.float64)
+    return np.asarray(blas.dtrsv(factor, blas.dtrsv(factor, x, lower=1), lower=1, trans=1))
 
 
 def symmetric_product(matrix: Array | SingleArray, x: Array) -> Array:
@@ -209,14 +264,27 @@ def symmetric_product(matrix: Array | SingleArray, x: Array) -> Array:
     return np.asarray(symv(1.0, matrix.T if matrix.flags.c_contiguous else matrix, x), dtype=np.float64)
 
 
-def _cholesky(A: Precision, softness: float) -> Precision:
-    """Lower Cholesky factor of ``A + softness I``, by columns, in the precision of A."""
-    shifted = np.array(A.T, order="F")
-    shifted[np.diag_indices_from(shifted)] += softness
-    if not len(shifted):
-        return shifted
-    potrf = lapack.spotrf if A.dtype == np.float32 else lapack.dpotrf
-    factor, failed = potrf(shifted, lower=1, overwrite_a=1, clean=0)
+def _cholesky(A: Array, room: Array | None = None) -> Array:
+    """Lower Cholesky factor of ``A + I``, by columns: the upper triangle of the room, by rows."""
+    if room is None:
+        shifted = np.array(A.T, order="F")
+    else:
+        for first in range(0, len(A), _TILE):
+            behind = first + _TILE
+            room[first:behind, behind:] = A[first:behind, behind:]
+            block = room[first:behind, first:behind]
+            block[:] = np.triu(A[first:behind, first:behind]) + np.tril(block, -1)
+        shifted = room.T
+    shifted[np.diag_indices_from(shifted)] += 1.0
+    _factorise(shifted)
+    return shifted
+
+
+def _factorise(matrix: Array | SingleArray) -> None:
+    """Overwrite the lower triangle of a matrix by columns by its Cholesky factor; what is above it stays."""
+    if not len(matrix):
+        return
+    potrf = lapack.spotrf if matrix.dtype == np.float32 else lapack.dpotrf
+    _, failed = potrf(matrix, lower=1, overwrite_a=1, clean=0)
     if failed:
         raise np.linalg.LinAlgError("the compliance of the pairs is not positive semidefinite")
-    return np.asarray(factor)

@@ -25,6 +25,7 @@ import scipy.linalg
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
+from signorini.condense._kernels import mirror
 from signorini.condense.body_blocks import BodyBlocks
 from signorini.interface.active import FreeBodies
 from signorini.linalg.elsewhere import MatrixElsewhere
@@ -51,6 +52,11 @@ class Response(ABC):
     factorisation: Factorisation
     B: sp.csr_array
     rigid: Array
+
+    @property
+    def room(self) -> Array | None:
+        """(d a, d a) Whose upper triangle and diagonal the first to ask may have for itself; None where is none."""
+        return None
 
     @property
     def motions(self) -> Array:
@@ -133,9 +139,18 @@ class ByPairs(Response):
     Attributes
     ----------
     rows : (d a,) those of the pairs that the law is asked of among all kept
+    left : (m, m) what the factorisation has left, below the diagonal; above it there is room for something else
+    diagonal : (m,) of it
     """
 
     rows: IntArray
+    left: Array
+    diagonal: Array
+
+    @property
+    def room(self) -> Array | None:
+        """What lies above the diagonal of what the factorisation has left, and says the same."""
+        return self.left if len(self.rows) == len(self.left) else None
 
     def reduce(self, f: Array) -> Reduced:
         """Condense loads (z,) to what they move, and their resultants."""
@@ -154,8 +169,11 @@ class ByPairs(Response):
 
     def compliance(self) -> Array:
         """Relative displacements per force, (d a, d a): what the factorisation has left."""
-        condensed = self.factorisation.schur()
-        return -(condensed if len(self.rows) == len(condensed) else condensed[np.ix_(self.rows, self.rows)])
+        all_rows = len(self.rows) == len(self.left)
+        X = -(self.left if all_rows else self.left[np.ix_(self.rows, self.rows)])
+        X[np.diag_indices_from(X)] = -self.diagonal[self.rows]
+        mirror(X)
+        return X
 
     def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
         """Free displacements under the reduced load and the forces r that are kept, and travel."""
@@ -208,7 +226,9 @@ def keep_pairs(
         backend=backend,
         plans=plans,
     )
-    return ByPairs(factorisation=factorisation, rows=np.arange(m), B=B, rigid=rigid)
+    left, factorisation = factorisation.parted()
+    kept = {"left": left, "diagonal": left.diagonal().copy()}
+    return ByPairs(factorisation=factorisation, rows=np.arange(m), B=B, rigid=rigid, **kept)
 
 
 def held_by_springs(K: Any, rigid: Array, stiffness: float) -> Any:

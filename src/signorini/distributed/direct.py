@@ -276,6 +276,12 @@ class FactorsOnRanks:
         assert self.held.made.condensed is not None
         return self.held.made.condensed
 
+    def parted(self) -> tuple[Array, FactorsOnRanks]:
+        """S, which may be overwritten, and these factors without it."""
+        S = self.schur()
+        self.held.made = self.held.made._replace(condensed=None)
+        return S, self
+
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load f, (n,) or (n, k), by one solve; to expand takes another."""
         z, load = len(self.held.inside), as_columns(f, self.n)

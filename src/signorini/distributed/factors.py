@@ -4,6 +4,10 @@
 MUMPS leaves the unknowns of the interface out of the elimination and hands their Schur complement to the first rank.
 petsc4py does not know of that, so that functions of PETSc are called by their names in its library.
 
+MUMPS keeps the memory that it worked in as long as its factors, and beside many pairs that is several matrices of
+their size, most of it for their rows of the factor, which nobody asks for again. Then bodies are factorised twice: with
+the interface, whose factor is discarded as it is made, and alone, to be solved with.
+
 References
 ----------
 Amestoy, Duff, L'Excellent, Koster (2001), A fully asynchronous multifrontal solver using distributed dynamic
@@ -13,6 +17,8 @@ scheduling, SIAM J. Matrix Anal. Appl. 23:15; MUMPS users' guide: ICNTL, CNTL, I
 from __future__ import annotations
 
 import ctypes
+import weakref
+from copy import copy
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,8 +38,11 @@ _OPTIONS = {
 }
 _ONLY_INSIDE = 26, 0  # ICNTL: solves leave out the unknowns of the Schur complement
 _STATUS, _DETAIL, _NEGATIVE = 1, 2, 12  # numbers in INFOG: how it ended, what more is said of it, pivots below 0
+_OPERATIONS = 3  # number in RINFOG
 _MEGABYTES = 15  # number in INFO: what a rank will take, which is known before anything is factorised
-_DENSE = 6.0  # matrices of the size of the interface that the first rank holds at once, as one process does
+_DISCARDED = "mat_mumps_icntl_31"  # whether factors are dropped as they are made, for their Schur complement alone
+_WIDE = 4  # entries of the interface to one of the bodies from which these are factorised twice
+_DENSE = 4.0  # matrices of the size of the interface that the first rank holds at once, as one process does
 _TILE = 256  # rows and columns that are mirrored at once
 _INFORMATION = 64  # numbers that have room for what PETSc says to a factorisation, of which MUMPS hears nothing
 
@@ -76,7 +85,7 @@ class OwnFactors:
 
     Attributes
     ----------
-    made : how the factorisation ended
+    operations : of the factorisation with the interface, as MUMPS has counted them
 
     Parameters
     ----------
@@ -86,75 +95,131 @@ class OwnFactors:
     """
 
     def __init__(self, team: Team, bodies: OwnBodies, asked: AskedOfFactors) -> None:
-        self._own = len(asked.springs)
-        A = _with_border(team, bodies, asked)
-        self._solver = PETSc.KSP().create(team.comm)
+        self._team, self._own = team, len(asked.springs)
+        interface, none = asked.interface, np.zeros(0, dtype=np.int64)
+        self._count = int(team.total(len(interface)))
+        self._wide = self._count**2 > _WIDE * int(team.total(bodies.K.getInfo(PETSc.Mat.InfoType.LOCAL)["nz_used"]))
+        self._whole = _Elimination(team, _with_border(team, bodies, asked), interface, discarded=self._wide)
+        self._inside = _Elimination(team, _inside(team, bodies, asked), none) if self._wide else self._whole
+        self._dense = 8.0 * len(interface) ** 2
+
+    def made(self) -> FactorsMade:
+        """Factorise where that fits, and hand over the Schur complement; called once."""
+        whole, inside = self._whole, self._inside
+        asked = inside.bytes + _DENSE * self._dense
+        room = room_for(self._team, max(asked, whole.bytes + self._dense))
+        fits, condensed = room.asked <= room.free, None
+        if fits:
+            whole.factorise()
+        status, detail, negative = whole.end
+        self.operations = whole.operations
+        if fits and status >= 0:
+            condensed = whole.condensed(self._count) if self._team.first else None
+            if self._wide:
+                whole.destroy()
+                inside.factorise()
+                status, detail, again = inside.end
+                negative = max(negative, again)
+            elif self._count:
+                inside.matrix.setMumpsIcntl(*_ONLY_INSIDE)
+        del self._whole
+        return FactorsMade(status, detail, negative, room, condensed)
+
+    def solved(self, f: Array) -> Array:
+        """(own, k) Displacements under forces (own, k) on what is eliminated, where the interface is held."""
+        result, (x, b) = np.empty_like(f), self._inside.vectors
+        for k, forces in enumerate(f.T):
+            b.array[: self._own], b.array[self._own :] = forces, 0.0
+            self._inside.matrix.solve(b, x)
+            result[:, k] = x.array[: self._own]
+        return result
+
+
+class _Elimination:
+    """A matrix of all ranks as MUMPS eliminates it: analysed, and factorised when that is asked for.
+
+    Attributes
+    ----------
+    matrix : of the factors
+    vectors : an answer and a load
+    bytes : what this rank will take for it
+
+    Parameters
+    ----------
+    team, A : the ranks and the matrix
+    interface : (k,) unknowns that are not eliminated, on the first rank; none on the others
+    discarded : whether nothing is kept but their Schur complement
+    """
+
+    def __init__(self, team: Team, A: Any, interface: IntArray, *, discarded: bool = False) -> None:
+        self._A, self._solver = copy(A), PETSc.KSP().create(team.comm)  # others may go on with theirs
         self._solver.setOperators(A)
         self._solver.setType("preonly")
         factors = self._solver.getPC()
         factors.setType("cholesky")
         factors.setFactorSolverType("mumps")
-        set_options(self._solver, "signorini_mumps_", _OPTIONS)
+        set_options(self._solver, "signorini_mumps_", _OPTIONS | {_DISCARDED: int(discarded)})
         self._solver.setErrorIfNotConverged(False)
         self._solver.setFromOptions()
         factors.setFactorSetUpSolverType()
-        self._matrix = factors.getFactorMatrix()
-        kept = asked.interface.astype(PETSc.IntType)
-        self._kept = PETSc.IS().createGeneral(kept, comm=team.comm)
-        count = int(team.total(len(kept)))
-        if count:
-            _petsc("MatFactorSetSchurIS", self._matrix, self._kept)
-        information = (ctypes.c_double * _INFORMATION)()
-        _petsc("MatFactorInfoInitialize", ctypes.byref(information))
-        _petsc("MatCholeskyFactorSymbolic", self._matrix, A, None, ctypes.byref(information))
-        room = room_for(team, 1e6 * self._matrix.getMumpsInfo(_MEGABYTES) + 8.0 * _DENSE * len(kept) ** 2)
-        if room.asked <= room.free:
-            _petsc("MatCholeskyFactorNumeric", self._matrix, A, ctypes.byref(information))
-        status, detail, negative = (self._matrix.getMumpsInfog(number) for number in (_STATUS, _DETAIL, _NEGATIVE))
-        made = status >= 0 and room.asked <= room.free
-        if made and count:
-            self._matrix.setMumpsIcntl(*_ONLY_INSIDE)
-        condensed = self._condensed(count) if team.first and made else None
-        self.made = FactorsMade(status, detail, negative, room, condensed)
-        self._x, self._b = A.createVecs()
+        self.matrix, self.vectors = factors.getFactorMatrix(), A.createVecs()
+        self._kept = PETSc.IS().createGeneral(interface.astype(PETSc.IntType), comm=team.comm)
+        if self._kept.getSize():
+            _petsc("MatFactorSetSchurIS", self.matrix, self._kept)
+        self._information = (ctypes.c_double * _INFORMATION)()
+        _petsc("MatFactorInfoInitialize", ctypes.byref(self._information))
+        _petsc("MatCholeskyFactorSymbolic", self.matrix, A, None, ctypes.byref(self._information))
+        self.bytes = 1e6 * self.matrix.getMumpsInfo(_MEGABYTES)
 
-    def _condensed(self, count: int) -> Array:
+    def factorise(self) -> None:
+        """Factorise; `end` says how that went."""
+        _petsc("MatCholeskyFactorNumeric", self.matrix, self._A, ctypes.byref(self._information))
+
+    @property
+    def end(self) -> tuple[int, int, int]:
+        """Status, detail and pivots below 0, see `FactorsMade`."""
+        status, detail, negative = (self.matrix.getMumpsInfog(number) for number in (_STATUS, _DETAIL, _NEGATIVE))
+        return status, detail, negative
+
+    @property
+    def operations(self) -> float:
+        """Of the factorisation."""
+        return float(self.matrix.getMumpsRinfog(_OPERATIONS))
+
+    def condensed(self, count: int) -> Array:
         """(k, k) The Schur complement where MUMPS has left it, in the lower triangle, by columns; nothing is copied."""
         if not count:
             return np.zeros((0, 0))
         found, status = ctypes.c_void_p(), ctypes.c_int()
-        _petsc("MatFactorGetSchurComplement", self._matrix, ctypes.byref(found), ctypes.byref(status))
-        entries = ctypes.c_void_p()
-        _petsc("MatDenseGetArray", found, ctypes.byref(entries))
-        S = np.asarray(_Entries(self._matrix, entries.value, count))
+        _petsc("MatFactorGetSchurComplement", self.matrix, ctypes.byref(found), ctypes.byref(status))
+        S = np.asarray(_Entries(found.value, count))
         _mirror(S)
-        S.flags.writeable = False
-        _petsc("MatDenseRestoreArray", found, ctypes.byref(entries))
-        _petsc("MatFactorRestoreSchurComplement", self._matrix, ctypes.byref(found), status)
+        _petsc("MatFactorRestoreSchurComplement", self.matrix, ctypes.byref(found), status)
         return S
 
-    def solved(self, f: Array) -> Array:
-        """(own, k) Displacements under forces (own, k) on what is eliminated, where the interface is held."""
-        result = np.empty_like(f)
-        for k, forces in enumerate(f.T):
-            self._b.array[: self._own], self._b.array[self._own :] = forces, 0.0
-            self._matrix.solve(self._b, self._x)
-            result[:, k] = self._x.array[: self._own]
-        return result
+    def destroy(self) -> None:
+        """Give back what it takes; all ranks together."""
+        for held in (*self.vectors, self.matrix, self._solver, self._kept, self._A):
+            held.destroy()
 
 
 class _Entries:
-    """Numbers in the memory of a matrix of PETSc's, as NumPy asks for them: it lives as long as somebody has them.
+    """Numbers of a dense matrix of PETSc's, as NumPy asks for them: they live as long as somebody has them.
 
     Parameters
     ----------
-    matrix : of PETSc
-    address, count : where they are, and of how many rows and columns
+    matrix : address of the matrix, which others may let go
+    count : of its rows and columns
     """
 
-    def __init__(self, matrix: Any, address: int | None, count: int) -> None:
-        self._matrix = matrix
-        self.__array_interface__ = {"data": (address, False), "shape": (count, count), "typestr": "<f8", "version": 3}
+    def __init__(self, matrix: int | None, count: int) -> None:
+        own, entries = ctypes.c_void_p(matrix), ctypes.c_void_p()
+        _petsc("PetscObjectReference", own)
+        _petsc("MatDenseGetArray", own, ctypes.byref(entries))
+        data = entries.value
+        _petsc("MatDenseRestoreArray", own, ctypes.byref(entries))
+        weakref.finalize(self, _petsc, "MatDestroy", ctypes.byref(own)).atexit = False  # PETSc has ended by then
+        self.__array_interface__ = {"data": (data, False), "shape": (count, count), "typestr": "<f8", "version": 3}
 
 
 def _mirror(S: Array) -> None:
@@ -164,6 +229,20 @@ def _mirror(S: Array) -> None:
         S[behind:, first:behind] = S[first:behind, behind:].T
         block = S[first:behind, first:behind]
         block[:] = np.triu(block) + np.triu(block, 1).T
+
+
+def _inside(team: Team, bodies: OwnBodies, asked: AskedOfFactors) -> Any:
+    """The bodies where the interface, unknowns of theirs or all of the border, is held."""
+    alone = asked._replace(border=sp.csr_array((len(asked.springs), 0)))
+    if asked.border.shape[1]:
+        return _with_border(team, bodies, alone)
+    held = team.comm.bcast(asked.interface).astype(PETSc.IntType)
+    first, last = bodies.K.getOwnershipRange()
+    springs = asked.springs.copy()
+    springs[held[(held >= first) & (held < last)] - first] += 1.0  # an entry on the diagonal, whose value goes
+    found = _with_border(team, bodies, alone._replace(springs=springs))
+    found.zeroRowsColumns(held if team.first else held[:0])
+    return found
 
 
 def _with_border(team: Team, bodies: OwnBodies, asked: AskedOfFactors) -> Any:
@@ -208,9 +287,8 @@ def hold_factors(team: Team, asked: AskedOfFactors, bodies: int, number: int) ->
     team, asked : the ranks and what this one adds
     bodies, number : under which bodies are held, and the factors will be
     """
-    made = OwnFactors(team, team.held[bodies], asked)
-    team.held[number] = made
-    return made.made
+    factors = team.held[number] = OwnFactors(team, team.held[bodies], asked)
+    return factors.made()
 
 
 def solve_factors(team: Team, f: Array, number: int) -> Array:

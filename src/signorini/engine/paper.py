@@ -12,11 +12,13 @@ import scipy.sparse.linalg
 from signorini import lcp
 from signorini.arrays import Array
 from signorini.checks import number
+from signorini.engine.condensation import reduced_bodies
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared, prepare
 from signorini.errors import InputError
 from signorini.friction.paper import PaperProblem, paper_problem
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
+from signorini.linalg.registry import factorise
 from signorini.model.model import Model
 from signorini.short import Short
 from signorini.solution.certificate import Certificate, certify
@@ -122,7 +124,7 @@ def formulate(model: Model | Prepared, *, E_n: float, E_tau: float) -> PaperForm
     f = prepared.constraints.transform.T @ (loads - prepared.K @ imposed)
     try:
         problem = paper_problem(
-            condensed.factorisation.schur(),
+            factorise(reduced_bodies(prepared, prepared.K), condensed.dofs).schur(),
             condensed.B.toarray()[order],
             condensed.reduce(f).load,
             offset[:, pairs].ravel()[order],

@@ -17,7 +17,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array
-from signorini.condense.operator import softened, symmetric_product
+from signorini.condense.operator import symmetric_product
 from signorini.friction.linear import Balance, Unknowns
 from signorini.friction.problem import ContactProblem
 from signorini.law.pair import Tangent
@@ -53,7 +53,7 @@ def iterate(problem: ContactProblem, law: Tangent, r: Array, a: Array, *, forwar
     >>> r.round(5).tolist()
     [[2.0], [-0.4]]
     """
-    unknowns, c, (A, factor, softness), R = Unknowns(law), problem.free_motion(), problem.image.single, problem.image.R
+    unknowns, c, soft, R = Unknowns(law), problem.free_motion(), problem.image.single, problem.image.R
     size, along = unknowns.size, len(unknowns.rows)
     fixed, kappa = np.concatenate([np.zeros((1, problem.pairs)), law.fixed]), law.kappa[unknowns.one]
     resisting = np.concatenate([np.zeros(along), kappa * unknowns.soft])
@@ -69,13 +69,13 @@ def iterate(problem: ContactProblem, law: Tangent, r: Array, a: Array, *, forwar
 
     def product(x: Array) -> Array:
         force = unknowns.forces(x[:size]).ravel()
-        return left(x, force, symmetric_product(A, force) + R @ x[size:])
+        return left(x, force, soft.product(force) + R @ x[size:])
 
     def precondition(y: Array) -> Array:
         acting = y[:size].copy()
         acting[apart] = 0.0
         motion = unknowns.seen_by(acting).ravel()
-        force = softened(factor, motion) + R @ (y[size:] - R.T @ motion / softness)
+        force = soft.solve(motion) + R @ (y[size:] - R.T @ motion / soft.softness)
         found = unknowns.seen(problem.by_pair(force))
         found[apart] = y[apart]
         return np.concatenate([found, R.T @ motion])

@@ -24,6 +24,7 @@ With alpha, beta > 0 the system is regular for small friction whatever A and R a
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -46,6 +47,7 @@ REFINE = 1e-13
 
 _RESULTANT_TOL = 1e-9  # of the forces: what those of least change may lack to balance the resultants
 _RANK_TOL = 1e-12  # of the largest pivot: rank of a singular system
+_COLUMNS = 512  # of a system that are copied at once
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,11 +135,14 @@ class Unknowns:
         share = self.law.share[:, pairs]
         matrix = np.zeros((size + k, size + k), order="F")
         whole = matrix if not across else np.zeros((len(rows), size), order="F")
-        whole[: len(rows), :u] = A[np.ix_(rows, self.rows)]
+        for some in _some(u):
+            whole[: len(rows), some] = A[np.ix_(rows, self.rows[some])]
         for axis, along in enumerate(share, start=1):
-            whole[: len(rows), self.slips] += A[np.ix_(rows, axis * n + pairs)] * along
+            for some in _some(len(pairs)):
+                whole[: len(rows), self.slips[some]] += A[np.ix_(rows, axis * n + pairs[some])] * along[some]
         for tau, places in zip(self.tau, across, strict=False):
-            whole[:, u:] += A[np.ix_(rows, places)] * tau
+            for some in _some(len(places)):
+                whole[:, u:][:, some] += A[np.ix_(rows, places[some])] * tau[some]
         if across:
             matrix[:u, :size] = whole[:u]
             one, two = whole[u : u + len(self.one)], whole[u + len(self.one) :]
@@ -209,13 +214,17 @@ class Unknowns:
         return h
 
 
+def _some(columns: int) -> Iterator[slice]:
+    """A few columns of a system after the other: a copy of all would be as large as it."""
+    return (slice(first, min(first + _COLUMNS, columns)) for first in range(0, columns, _COLUMNS))
+
+
 @dataclass(frozen=True, kw_only=True)
 class LinearSystem:
     """The factorised system of one linear law; build it with `linear_system`."""
 
     equilibrium: Equilibrium
     unknowns: Unknowns
-    matrix: Array
     lu: Array
     pivots: IntArray
     singular: bool
@@ -281,9 +290,9 @@ class LinearSystem:
 
     def _least_change(self, rhs: Array, r: Array, a: Array) -> Array:
         """A solution in the least-squares sense, near the forces given."""
-        x = np.concatenate([self.unknowns.coordinates(r), a])
+        x, matrix = np.concatenate([self.unknowns.coordinates(r), a]), _matrix(self.equilibrium, self.unknowns)
         for _ in range(2):
-            x = x + lstsq(self.matrix, rhs - self.matrix @ x, cond=_RANK_TOL, lapack_driver="gelsy")[0]
+            x = x + lstsq(matrix, rhs - matrix @ x, cond=_RANK_TOL, lapack_driver="gelsy")[0]
         return np.asarray(x, dtype=np.float64)
 
 
@@ -305,13 +314,16 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     >>> r.round(12).tolist(), h.tolist(), system.index
     ([[2.0], [-0.4], [-0.2]], [[0.0], [0.0], [0.0]], 1)
     """
-    image, unknowns = equilibrium.problem.image, Unknowns(law)
-    matrix = unknowns.matrix(image.A, image.R, equilibrium.alpha, equilibrium.beta)
-    lu, pivots, singular = matrix, np.zeros(0, dtype=np.int64), False
-    if len(matrix):
-        norm = float(np.abs(matrix).sum(axis=0).max())
-        lu, pivots, failed = lapack.dgetrf(matrix)
+    unknowns = Unknowns(law)
+    lu, pivots, singular = _matrix(equilibrium, unknowns), np.zeros(0, dtype=np.int64), False
+    if len(lu):
+        norm = float(lapack.dlange("1", lu))
+        lu, pivots, failed = lapack.dgetrf(lu, overwrite_a=1)
         singular = bool(failed) or float(lapack.dgecon(lu, norm)[0]) < SINGULAR
-    return LinearSystem(
-        equilibrium=equilibrium, unknowns=unknowns, matrix=matrix, lu=lu, pivots=pivots, singular=singular
-    )
+    return LinearSystem(equilibrium=equilibrium, unknowns=unknowns, lu=lu, pivots=pivots, singular=singular)
+
+
+def _matrix(equilibrium: Equilibrium, unknowns: Unknowns) -> Array:
+    """Of the system, by columns."""
+    image = equilibrium.problem.image
+    return unknowns.matrix(image.A, image.R, equilibrium.alpha, equilibrium.beta)

@@ -29,7 +29,7 @@ from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.plan import Plan, Plans, analyse
-from signorini.linalg.protocol import NotPositiveDefinite, Reduced
+from signorini.linalg.protocol import NotPositiveDefinite, Reduced, WithSchur
 from signorini.linalg.shared_fronts import factorise_parts
 from signorini.linalg.system import System, as_columns, like
 from signorini.memory import give_memory_back
@@ -41,28 +41,20 @@ _LOADS_AT_ONCE = 16  # loads that one thread solves for: the factor is read once
 
 
 @dataclass(frozen=True, kw_only=True)
-class MultifrontalFactorisation:
+class MultifrontalFactorisation(WithSchur):
     """``K_ii = L L^T``, the rows ``K_ci L^-T`` of the interface below it, and the condensed matrix.
 
     Attributes
     ----------
     plan : order, fronts and cost
     factor : the columns of every front
-    condensed : (m, m) S, read-only
     slots : (m,) the place in `interface` of every unknown there, in order of elimination
     """
 
-    n: int
-    m: int
     plan: Plan
     factor: Array = field(repr=False)
-    condensed: Array = field(repr=False)
     slots: Int32Array = field(repr=False)
     name: str = "multifrontal"
-
-    def schur(self) -> Array:
-        """Give S, (m, m), read-only."""
-        return self.condensed
 
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load."""

@@ -28,7 +28,7 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.linalg import multifrontal
 from signorini.linalg.definite import check_energy
-from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
+from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced, WithSchur
 from signorini.linalg.system import System, as_columns, interface_lift, like
 
 SYMMETRIC_POSITIVE_DEFINITE = 2  # its number among kinds of matrices
@@ -41,28 +41,20 @@ FAILURES = {-1: "inconsistent input", -2: "not enough memory", -3: "reordering",
 
 
 @dataclass(frozen=True, kw_only=True)
-class PardisoFactorisation:
+class PardisoFactorisation(WithSchur):
     """A factorisation that lives in MKL until this object is collected.
 
     Attributes
     ----------
     interface : (m,) unknowns that are not eliminated
     upper : the upper triangle that PARDISO was given
-    condensed : (m, m) S, read-only
     """
 
-    n: int
-    m: int
     interface: IntArray
     upper: sparse.csr_array = field(repr=False)
     solver: Any = field(repr=False)
-    condensed: Array = field(repr=False)
     name: str = "pardiso"
     plan: None = None
-
-    def schur(self) -> Array:
-        """Give S, (m, m), read-only."""
-        return self.condensed
 
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load."""

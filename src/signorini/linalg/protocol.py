@@ -12,8 +12,10 @@ factorised here.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from dataclasses import dataclass, field, replace
+from typing import Protocol, Self, runtime_checkable
+
+import numpy as np
 
 from signorini.arrays import Array
 from signorini.errors import SignoriniError
@@ -58,8 +60,36 @@ class Factorisation(Protocol):
     def schur(self) -> Array:
         """Give the condensed stiffness ``S = K_cc - K_ci K_ii^-1 K_ic``, (m, m), in the order of the interface."""
 
+    def parted(self) -> tuple[Array, Factorisation]:
+        """S, which whoever asks may overwrite, and these factors without it; nobody is given it again."""
+
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load f, (n,) or (n, k)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WithSchur:
+    """Factors that hold their condensed stiffness.
+
+    Attributes
+    ----------
+    n, m : unknowns in all, and on the interface
+    condensed : (m, m) S, read-only
+    """
+
+    n: int
+    m: int
+    condensed: Array = field(repr=False)
+
+    def schur(self) -> Array:
+        """Give S, (m, m), read-only."""
+        return self.condensed
+
+    def parted(self) -> tuple[Array, Self]:
+        """S, which may be overwritten, and these factors without it."""
+        S, rest = self.condensed, replace(self, condensed=np.zeros((0, 0)))
+        S.flags.writeable = True
+        return S, rest
 
 
 class NotPositiveDefinite(SignoriniError):

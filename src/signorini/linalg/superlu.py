@@ -20,12 +20,12 @@ from scipy.sparse.linalg import SuperLU, splu
 from signorini.arrays import Array, Int32Array, IntArray
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.ordering import nested_dissection, unknowns
-from signorini.linalg.protocol import NotPositiveDefinite, Reduced
+from signorini.linalg.protocol import NotPositiveDefinite, Reduced, WithSchur
 from signorini.linalg.system import System, as_columns, interface_lift, like, node_graph
 
 
 @dataclass(frozen=True, kw_only=True)
-class SuperLUFactorisation:
+class SuperLUFactorisation(WithSchur):
     """Factors of ``K + D``, whose solves are told apart into halves by ``S' = S + D``.
 
     Attributes
@@ -34,22 +34,14 @@ class SuperLUFactorisation:
     lu : of ``K + D`` in the order of elimination
     order : (n,) unknowns in that order, interface last
     lifted : (m, m) S'
-    condensed : (m, m) S
     """
 
-    n: int
-    m: int
     interface: IntArray
     lu: SuperLU = field(repr=False)
     order: Int32Array = field(repr=False)
     lifted: Array = field(repr=False)
-    condensed: Array = field(repr=False)
     name: str = "superlu"
     plan: None = None
-
-    def schur(self) -> Array:
-        """Give S, (m, m)."""
-        return self.condensed.copy()
 
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load: with none on the interface ``S' u_c = -K_ci K_ii^-1 f_i``."""
@@ -124,6 +116,8 @@ def _unpack(system: System, order: Int32Array, lu: SuperLU, shift: Array) -> Sup
     corner = lu.L.tocsr()[last][:, last].toarray()
     S = (corner * lu.U.diagonal()[last]) @ corner.T
     S = (S + S.T) / 2
+    condensed = S - np.diag(shift[system.interface])
+    condensed.flags.writeable = False
     return SuperLUFactorisation(
         n=system.n,
         m=system.m,
@@ -131,5 +125,5 @@ def _unpack(system: System, order: Int32Array, lu: SuperLU, shift: Array) -> Sup
         lu=lu,
         order=order,
         lifted=S,
-        condensed=S - np.diag(shift[system.interface]),
+        condensed=condensed,
     )
