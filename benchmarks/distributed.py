@@ -3,9 +3,10 @@
 
 Two cubes whose meshes do not match, solved in one process and by the back end 'petsc' on 1, 2 and 4 ranks. Counts and
 operations say how work grows and is shared whatever else the machine does; times on two cores would not. With
-``--memory`` what ranks hold of bodies and results, in kB a node. Needs petsc4py, mpi4py and mpiexec.
+``--memory`` what ranks hold of bodies and results, in kB a node; with ``--history`` what each increment adds whose
+displacements are kept. Needs petsc4py, mpi4py and mpiexec.
 
-usage: python -m benchmarks.distributed [--small] [--memory]
+usage: python -m benchmarks.distributed [--small] [--memory | --history]
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import sys
 import tempfile
 import tracemalloc
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +35,7 @@ from signorini.memory import peak_memory
 from signorini.output.folder import write_folder
 
 RANKS = (1, 2, 4)
+INCREMENTS = 4, 12  # between which the growth of a history is measured
 MANY = 12  # ranks on which what the first one holds of the whole mesh outweighs its own share
 PAGE = page.PAGE.parent / "distributed.md"
 ROOT_AND_FEW_CORES = {
@@ -135,6 +138,21 @@ def held(lower: int, upper: int) -> dict[str, Any]:
     }
 
 
+def grown(lower: int, upper: int) -> dict[str, Any]:
+    """Bytes a node that each increment adds to a history that keeps its displacements, of the first rank and others."""
+    team, model, sizes = the_team(), cubes(lower, upper), []
+    for increments in (1, *INCREMENTS):  # the first one loads and compiles
+        before = [now for now, _ in team.everywhere(traced)]
+        posed = replace(model, steps=[sg.Step(increments=increments, at="events")])
+        history = solve_prepared(prepare(posed, backend="petsc"))
+        sizes.append(np.array([now for now, _ in team.everywhere(traced)]) - before)
+        pairs = history.pairs
+        del history
+    nodes = len(model.mesh.points)
+    more = (sizes[2] - sizes[1]) / (INCREMENTS[1] - INCREMENTS[0]) / nodes
+    return {"nodes": nodes, "pairs": pairs, "first": float(more[0]), "others": float(more[1:].max(initial=0.0))}
+
+
 def memory_row(ranks: int, found: dict[str, Any]) -> list[object]:
     """A line of the table of memory, kB a node."""
     parts = [found[name] for name in ("mesh and pieces", "to cut", "to solve", "history", "to write")]
@@ -161,6 +179,7 @@ def row(ranks: int, found: dict[str, Any]) -> list[object]:
     ]
 
 
+HISTORY_HEAD = ["nodes", "pairs", "ranks", "the first rank", "the most of the others"]
 MEMORY_HEAD = [
     "nodes",
     "ranks",
@@ -192,12 +211,23 @@ def main() -> None:
     parser = command.parser(__doc__, dry=True)
     parser.add_argument("--small", action="store_true", help="sizes that take seconds")
     parser.add_argument("--memory", action="store_true", help="what ranks hold, in place of counts and work")
+    parser.add_argument("--history", action="store_true", help="how a history grows, in place of counts and work")
     parser.add_argument("--one", nargs=2, type=int, metavar="N", help="measure cubes of so many cells on these ranks")
     options = parser.parse_args()
     if options.one:
         with sg.ranks() as first:
             if first:
-                print(json.dumps((held if options.memory else measured)(*options.one)))
+                what = held if options.memory else grown if options.history else measured
+                print(json.dumps(what(*options.one)))
+        return
+    if options.history:
+        size = (5, 4) if options.small else (8, 7)
+        found = [(ranks, on_ranks(ranks, size, "--history")) for ranks in RANKS]
+        rows = [
+            [str(one["nodes"]), one["pairs"], number, f"{one['first']:.0f}", f"{one['others']:.0f}"]
+            for number, one in found
+        ]
+        command.publish(options, "history on ranks", page.table(HISTORY_HEAD, rows), PAGE)
         return
     if options.memory:
         sizes = ((5, 4),) if options.small else ((8, 7), (14, 12))

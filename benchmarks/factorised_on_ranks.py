@@ -2,7 +2,8 @@
 """Bodies that MUMPS factorises on ranks for a thousand pairs and more: time by phases, memory, and the same answers.
 
 Two square plates, 30 by 30 by 3 cells and more, whose meshes do not match: nearly all is the interface. They are solved
-in one process, and by the back end 'mumps' on 1 and 2 ranks. Needs petsc4py, mpi4py and mpiexec.
+in one process, and by the back end 'mumps' on ranks. What is known is published after every size. Needs petsc4py,
+mpi4py and mpiexec.
 
 usage: python -m benchmarks.factorised_on_ranks [--small] [--dry]
 """
@@ -29,9 +30,8 @@ from signorini.meshing.solid import box
 from signorini.model.mesh import join
 
 MODULE = "benchmarks.factorised_on_ranks"
-SIZES = (31, 54, 73)  # cells along an edge
-SMALL = (12,)
-RANKS = (1, 2)
+SIZES = {63: (1,), 31: (1, 2), 54: (1, 2)}  # cells along an edge, the largest first, with numbers of ranks
+SMALL = {12: (1, 2)}
 LAYERS, THICKNESS = 3, 0.25  # of cells in a plate; of the sides of the plates
 KEPT = "SIGNORINI_PLATES"  # environment variable: the file in which the answer of one process is
 PHASES = ("factorisation", "condensation", "complementarity")
@@ -136,15 +136,16 @@ def main() -> None:
             if first:
                 print(json.dumps(measured(options.one, MUMPS)))
         return
-    rows = []
+    rows: dict[int, list[list[object]]] = {}
     with tempfile.TemporaryDirectory() as folder:
         os.environ[KEPT] = str(Path(folder, "answer.npz"))
-        for cells in SMALL if options.small else SIZES:
+        for cells, numbers in (SMALL if options.small else SIZES).items():
             (alone,) = page.measured(MODULE, cells, "--backend", "multifrontal", keep=False)
-            rows.append(row("in one process", alone))
-            for ranks in RANKS:
-                rows.append(row(str(ranks), on_ranks(ranks, (cells,), "--backend", MUMPS, module=MODULE)))
-    command.publish(options, "factorised on ranks", page.table(HEAD, rows), PAGE)
+            rows[cells] = [row("in one process", alone)]
+            for ranks in numbers:
+                rows[cells].append(row(str(ranks), on_ranks(ranks, (cells,), "--backend", MUMPS, module=MODULE)))
+            known = [line for size in sorted(rows) for line in rows[size]]
+            command.publish(options, "factorised on ranks", page.table(HEAD, known), PAGE)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +16,71 @@ Array = NDArray[np.float64]
 IntArray = NDArray[np.integer[Any]]
 Int32Array = NDArray[np.int32]
 BoolArray = NDArray[np.bool_]
+Data = TypeVar("Data")
+
+
+@runtime_checkable
+class ArrayElsewhere(Protocol):
+    """An array that is not in this process, which can ask for it."""
+
+    shape: tuple[int, ...]
+    dtype: np.dtype[Any]
+
+    def whole(self) -> Array:
+        """All of it, read-only; it is not kept here."""
+
+    def blocks(self) -> Iterator[tuple[int, Array]]:
+        """Its rows, some at a time, each with the number of the first."""
+
+
+class _MaybeElsewhere:
+    """A field of frozen data that is asked for where it is elsewhere."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __get__(self, data: Any, _kind: Any = None) -> Any:
+        value = self if data is None else vars(data)[self._name]
+        return value if value is None or isinstance(value, np.ndarray | _MaybeElsewhere) else value.whole()
+
+    def __set__(self, data: Any, value: Any) -> None:
+        vars(data)[self._name] = value
+
+
+def elsewhere(*names: str) -> Callable[[type[Data]], type[Data]]:
+    """Let fields of a dataclass be arrays elsewhere: whoever asks for them has them whole, `stored` has what is here.
+
+    Parameters
+    ----------
+    names : of the fields; without defaults
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> @elsewhere("values")
+    ... @dataclass(frozen=True)
+    ... class Result:
+    ...     values: Array
+    >>> Result(np.ones(2)).values
+    array([1., 1.])
+    """
+
+    def changed(kind: type[Data]) -> type[Data]:
+        for name in names:
+            setattr(kind, name, _MaybeElsewhere(name))
+        return kind
+
+    return changed
+
+
+def stored(data: Any, name: str) -> Any:
+    """A field of a dataclass as it is here: an array that is elsewhere is not asked for.
+
+    Parameters
+    ----------
+    data, name : the data and their field
+    """
+    return vars(data)[name]
 
 
 def frozen(values: ArrayLike, dtype: Any = np.float64) -> NDArray[Any]:

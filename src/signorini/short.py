@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from signorini.arrays import ArrayElsewhere, stored
 from signorini.doors import door
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ class Short:
 
     def __repr__(self) -> str:
         assert dataclasses.is_dataclass(self)
-        parts = (f"{field.name}={_said(getattr(self, field.name))}" for field in dataclasses.fields(self) if field.repr)
+        parts = (f"{field.name}={_said(stored(self, field.name))}" for field in dataclasses.fields(self) if field.repr)
         return f"{type(self).__name__}({', '.join(parts)})"
 
     def _repr_html_(self) -> str | None:
@@ -51,7 +52,7 @@ class Drawable(Short):
 
 
 def _said(value: Any) -> str:
-    if isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray | ArrayElsewhere):
         return f"array({' x '.join(map(str, value.shape))})"
     if isinstance(value, Mapping):
         return f"{{{_listed([f'{key}: {_named(own)}' for key, own in value.items()])}}}"

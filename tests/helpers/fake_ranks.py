@@ -11,7 +11,7 @@ class RanksInTurn:
     def __init__(self, size):
         self.size, self.rank, self.together = size, 0, True
         self.kept_by_rank = [{} for _ in range(size)]
-        self.owners = weakref.WeakKeyDictionary()
+        self.owners, self.away = weakref.WeakKeyDictionary(), weakref.WeakSet()
         self._numbers = itertools.count()
 
     @property
@@ -21,8 +21,9 @@ class RanksInTurn:
     def kept(self, _owner):
         return next(self._numbers)
 
-    def everywhere(self, work, *given, pieces):
+    def everywhere(self, work, *given, pieces=None):
         found = []
-        for self.rank, piece in enumerate(pieces):
-            found.append(work(self, pickle.loads(pickle.dumps(piece)), *given))
+        for rank, own in enumerate(((),) * self.size if pieces is None else ((piece,) for piece in pieces)):
+            self.rank = rank
+            found.append(work(self, *pickle.loads(pickle.dumps(own)), *given))
         return pickle.loads(pickle.dumps(found))

@@ -39,6 +39,7 @@ class Team:
     rank, size : number of this one, 0 of the first; how many there are
     held : what this rank keeps for the first one, by number
     code : exit code that the first rank leaves with
+    away : on the first rank: arrays that all of them keep, as long as somebody has them
     owners : on the first rank: (n,) rank of each node of every mesh that was cut, as long as somebody has the mesh
     """
 
@@ -48,6 +49,7 @@ class Team:
         self.held: dict[int, Any] = {}
         self.code = 0
         self.owners: weakref.WeakKeyDictionary[Any, Any] = weakref.WeakKeyDictionary()
+        self.away: weakref.WeakSet[Any] = weakref.WeakSet()
         self.together = self.size == 1
         self._numbers = itertools.count()
         self._dropped: list[int] = []
@@ -131,7 +133,9 @@ class Team:
                 self._done(work, (self.comm.recv(source=0),) if in_pieces else (), given, dropped)
 
     def dismiss(self) -> None:
-        """Let the other ranks go."""
+        """Let the other ranks go, and have what they keep here."""
+        for array in tuple(self.away):
+            array.come_home()
         self.comm.bcast((None, (self.code,), False, ()))
 
     def _done(self, work: Callable[..., Any], own: tuple[Any, ...], given: tuple[Any, ...], dropped: Any) -> Any:
@@ -191,9 +195,9 @@ def whole_team() -> Iterator[Team]:
     try:
         yield team
     finally:
-        team.together = before
         if team.size > 1:
             team.dismiss()
+        team.together = before
 
 
 @cache

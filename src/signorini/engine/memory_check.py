@@ -157,7 +157,8 @@ def condensing(
     if bound.bytes <= plenty and (dear == np.inf or condensing_work(bound, K.nnz) <= dear):
         return bound
     plan = analyse(checked_system(K, dofs, nodes, points))
-    return Condensing(plan.peak_bytes + 8.0 * dense + border, plan.flops, rows)
+    fronts = plan.peak_bytes if not border else plan.peak_bytes - 8.0 * (len(dofs) ** 2 - rows**2)  # left: of the pairs
+    return Condensing(max(fronts, 8.0 * (plan.nnz_factor + dense)) + border, plan.flops, rows)
 
 
 def _size(number: float) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
+from signorini.distributed.kept_rows import put_away
 from signorini.engine.bolts import bolt_results
 from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.energy import interface_energy, stored_energy, thermal_energy
@@ -73,8 +74,8 @@ def step_result(
         path=followed.path,
         finished=finished,
         events=followed.events,
-        displacement=frozen(_displacement(prepared, state)),
-        external=frozen(_external(prepared, state, loads, held)),
+        displacement=put_away(frozen(_displacement(prepared, state))),
+        external=put_away(frozen(_external(prepared, state, loads, held))),
         obstacles={
             obstacle.name: rigid_result(model, space, j, u, state.external)
             for j, obstacle in enumerate(model.obstacles)
@@ -199,7 +200,7 @@ def instant_of(prepared: Prepared, state: State) -> Instant:
         what="start",
         contacts=contacts_of(prepared, state, state),
         work=0.0,
-        displacement=frozen(_displacement(prepared, state)),
+        displacement=put_away(frozen(_displacement(prepared, state))),
         factors=dict(state.point.factors),
         plastic=_plastic(state, state, whole=True),
         places=frozen(prepared.space.mesh.points) if prepared.meshed is not None else None,
@@ -249,7 +250,7 @@ def _instants(
             work=snapshot.state.work - followed.before.work + heat(snapshot.state) - begun
             if snapshot.worked
             else np.nan,
-            displacement=frozen(_displacement(prepared, snapshot.state)) if snapshot.kept else None,
+            displacement=put_away(frozen(_displacement(prepared, snapshot.state))) if snapshot.kept else None,
             factors=dict(snapshot.state.point.factors),
             plastic=_plastic(
                 followed.before,

@@ -12,6 +12,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import MethodRun
+from signorini.distributed.kept_rows import put_away
 from signorini.engine.prepare import Prepared
 from signorini.engine.tape import Leg
 from signorini.errors import Interrupted, SolveFailed
@@ -188,6 +189,13 @@ class Snapshot:
         """Step k goes from k - 1 to k."""
         return self.number - 1 + self.fraction
 
+    def asked_for(self, last: bool) -> Snapshot:
+        """As one of the results, of which ranks keep all but the last, which the history goes on from."""
+        state, names = self.state, () if last else ("displacement", "external")
+        return replace(
+            self, kept=True, state=replace(state, **{name: put_away(getattr(state, name)) for name in names})
+        )
+
     def light(self, flow: bool) -> Snapshot:
         """Without the displacement of the bodies, for a history may have thousands; ``flow``: with plastic strains."""
         none = np.zeros(0)
@@ -269,7 +277,7 @@ def lightened(followed: FollowedPart, *, every: bool, end: bool, heated: bool, t
     for i, shot in enumerate(followed.snapshots, start=1):
         last = i == len(followed.snapshots)  # a cycle may end here, which is judged by its plastic strains
         kept = shot.whole and (every or shot.what == "asked" or (end and last))
-        shots.append(replace(shot, kept=True) if kept else shot if heated else shot.light(last))
+        shots.append(shot.asked_for(last) if kept else shot if heated else shot.light(last))
     return replace(followed, snapshots=tuple(shots), until=None, legs=followed.legs if taped else ())
 
 

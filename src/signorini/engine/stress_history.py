@@ -123,11 +123,11 @@ def _along(
         yield 0.0, (nothing, nothing if probe.slopes is not None else nothing[:0], nothing)
     if span.before is not None and span.before.displacement is not None:
         yield span.before.load_factor, _in_state(probe, span.before, span.before.displacement)
-    missing = [moment for moment in span.moments[:-1] if moment.displacement is None]
+    missing = [moment for moment in span.moments[:-1] if not moment.deformed]
     found = recovery().displacements(span.step, missing) if missing else iter(())
     for moment in span.moments[:-1]:
-        displacement = next(found) if moment.displacement is None else moment.displacement
-        yield moment.load_factor, _in_state(probe, moment, displacement)
+        u = moment.displacement
+        yield moment.load_factor, _in_state(probe, moment, next(found) if u is None else u)
     for _ in found:  # what is left compares what was found with the end
         pass
     yield span.step.load_factor, _in_state(probe, span.step, span.step.displacement)

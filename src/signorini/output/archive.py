@@ -14,6 +14,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 
 from signorini._version import __version__
+from signorini.arrays import ArrayElsewhere
 from signorini.errors import InputError, brief
 from signorini.hdf5 import check_hdf5
 from signorini.output.atomic_write import atomic_write
@@ -79,7 +80,7 @@ class GrowingArchive:
                     if old in file:
                         del file[old]
 
-                def keep(name: str, array: AnyArray, key: str) -> str:
+                def keep(name: str, array: AnyArray | ArrayElsewhere, key: str) -> str:
                     if key not in self._known:
                         self._known[key] = name
                         _write(file, name, array, compress=self._compress)
@@ -111,10 +112,19 @@ def _seal(file: IO[bytes], format_name: str) -> bytes:
     return found.hexdigest().encode()
 
 
-def _write(file: h5py.File, name: str, array: AnyArray, *, compress: bool) -> None:
-    """Write an array; by h5py's lower layer, where a history has thousands: a quarter of the time of its upper one."""
+def _write(file: h5py.File, name: str, array: AnyArray | ArrayElsewhere, *, compress: bool) -> None:
+    """Write an array, one that is elsewhere some rows at a time.
+
+    What is here goes through h5py's lower layer, where a history has thousands: a quarter of the time of its upper one.
+    """
     import h5py
 
+    if not isinstance(array, np.ndarray):
+        filters = {"compression": "gzip", "compression_opts": 1} if compress else {}
+        placed = file.create_dataset(name, shape=array.shape, dtype=array.dtype, **filters)
+        for first, rows in array.blocks():
+            placed[first : first + len(rows)] = rows
+        return
     if compress and array.nbytes >= _MIN_COMPRESSED and array.dtype.kind != "U":
         file.create_dataset(name, data=array, compression="gzip", compression_opts=1)
         return

@@ -14,7 +14,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from signorini.arrays import frozen
+from signorini.arrays import ArrayElsewhere, frozen, stored
 from signorini.errors import InputError
 from signorini.law.friction import LAWS
 
@@ -79,12 +79,12 @@ def _kind(name: str) -> type | None:
     return {kind.__name__: kind for kind in LAWS.values()}.get(name) or _kinds().get(name)
 
 
-def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray, str], str]) -> Any:
+def to_plain(value: Any, path: str, keep: Callable[[str, Any, str], str]) -> Any:
     """Plain data that JSON can hold; larger arrays go to ``keep`` with a path and a digest, and it says where they are.
 
     Parameters
     ----------
-    value : numbers, texts, arrays, lists, tables and classes of this package, nested
+    value : numbers, texts, arrays, here or elsewhere, lists, tables and classes of this package, nested
     path : of the value, as ``"steps/0"``
 
     Examples
@@ -96,9 +96,9 @@ def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray, str], str]) -
         return value
     if isinstance(value, np.generic):
         return value.item()
-    if isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray | ArrayElsewhere):
         told = {_MARK: "array", "dtype": value.dtype.str}
-        if value.size <= _MAX_INLINE:
+        if isinstance(value, np.ndarray) and value.size <= _MAX_INLINE:
             return told | {"shape": list(value.shape), "of": value.ravel().tolist()}
         key = digest(value)
         return told | {"digest": key, "path": keep(path, value, key)}
@@ -114,7 +114,7 @@ def to_plain(value: Any, path: str, keep: Callable[[str, AnyArray, str], str]) -
     if _kind(name) is not type(value):
         raise InputError(f"'{path}' is {value!r}, which a file cannot hold; expected numbers or a table")
     own = {
-        field.name: to_plain(getattr(value, field.name), f"{path}/{field.name}", keep)
+        field.name: to_plain(stored(value, field.name), f"{path}/{field.name}", keep)
         for field in fields(cast(Any, value))
     }
     return {_MARK: "class", "name": name, "of": own}
@@ -170,14 +170,15 @@ def from_plain(plain: Any, get: Callable[[str], AnyArray]) -> Any:
     return made
 
 
-def digest(array: AnyArray) -> str:
+def digest(array: AnyArray | ArrayElsewhere) -> str:
     """Letters that two arrays share only if type, shape and every bit are the same.
 
     >>> digest(np.zeros(2)) == digest(np.zeros((2, 1)))
     False
     """
     found = hashlib.blake2b(f"{array.dtype.str}{array.shape}".encode(), digest_size=_DIGEST_SIZE)
-    found.update(np.ascontiguousarray(array).tobytes())
+    for _, rows in [(0, array)] if isinstance(array, np.ndarray) else array.blocks():
+        found.update(np.ascontiguousarray(rows).tobytes())
     return found.hexdigest()
 
 

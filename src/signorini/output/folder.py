@@ -349,7 +349,7 @@ def _write_tables(
     write_contacts(history, folder / "contact.csv")
     names = ["contact.csv"]
     model = history.model
-    if len(history.steps) > 1 or any(shot.displacement is not None for shot in history.last.instants[:-1]):
+    if len(history.steps) > 1 or any(shot.deformed for shot in history.last.instants[:-1]):
         names += write_series(fields, frames(history), folder, done=done, compress=compress, ranks=ranks)
     last, kind = f"solution_{len(history.steps):04d}", "vtu" if ranks is None else "pvtu"
     if ranks is not None and not (folder / f"{last}.pvtu").exists():  # files of ranks are called by the step

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from signorini.arrays import IntArray
+from signorini.arrays import Array, IntArray
 from signorini.distributed.ranks import Team, several_ranks
 from signorini.distributed.shares import FieldShare, shares
 from signorini.model.model import Model
@@ -106,8 +106,9 @@ class FieldsOnRanks:
         """
         *files, _ = self.files(name)
         (folder / files[0]).parent.mkdir(exist_ok=True)
-        paths = iter([str((folder / file).resolve()) for file in files])
-        asked = ((_part_of(state, nodes), next(paths)) if writes else None for nodes, writes in self._asked())
+        paths, u = iter([str((folder / file).resolve()) for file in files]), state.displacement
+        assert u is not None  # asked for here: ranks that may keep it wait for their parts below
+        asked = ((_part_of(state, u[nodes], nodes), next(paths)) if writes else None for nodes, writes in self._asked())
         found = self._team.everywhere(_write, self._number, compress, pieces=asked)
         for error in found:
             if isinstance(error, OSError):
@@ -134,9 +135,8 @@ def fields_on_ranks(history: History) -> FieldsOnRanks | None:
     return FieldsOnRanks(team, model, owner)
 
 
-def _part_of(state: State, nodes: IntArray) -> Instant:
-    """What a rank needs of a state at its nodes, which ascend."""
-    assert state.displacement is not None
+def _part_of(state: State, u: Array, nodes: IntArray) -> Instant:
+    """What a rank needs of a state at its nodes, which ascend, with their displacements."""
     forces = state.nodal_forces
     if forces is not None:
         here = np.isin(forces.node, nodes)
@@ -148,7 +148,7 @@ def _part_of(state: State, nodes: IntArray) -> Instant:
         what="share",
         contacts=(),
         work=np.nan,
-        displacement=state.displacement[nodes],
+        displacement=u,
         factors=dict(state.factors),
         nodal_forces=forces,
     )

@@ -49,7 +49,7 @@ def frames(history: History) -> list[Frame]:
     found: list[Frame] = []
     time = 0.0
     for k, step in enumerate(history.steps, start=1):
-        kept = [instant for instant in step.instants[:-1] if instant.displacement is not None]
+        kept = [instant for instant in step.instants[:-1] if instant.deformed]
         states: list[State] = [*kept, step]
         for i, state in enumerate(states, start=1):
             time = max(state.load_factor, time + MIN_TIME_STEP)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, elsewhere, stored
 from signorini.attempt import MethodRun
 from signorini.model.outputs import Part
 from signorini.plasticity.state import PlasticState
@@ -196,6 +196,7 @@ class PairEvent:
     what: str
 
 
+@elsewhere("displacement")
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Instant(Short):
     """The contacts at one load on the way: at every event or increment, at kinks of the load, at times asked for.
@@ -227,6 +228,11 @@ class Instant(Short):
     places: Array | None = None
     nodal_forces: NodalForces | None = None
     motions: Mapping[str, ObstacleMotion] | None = None
+
+    @property
+    def deformed(self) -> bool:
+        """Whether displacements are known; they are not asked for."""
+        return stored(self, "displacement") is not None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -278,6 +284,7 @@ class Cycle:
     worn: float = 0.0
 
 
+@elsewhere("displacement", "external")
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class StepResult(Short):
     """The end of a step, or how far it was followed.

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, elsewhere
 from signorini.interface.interface import Interface
 from signorini.law.closure import Borne
 from signorini.law.cohesion import Bonds
@@ -58,6 +58,7 @@ class LoadPoint(Short):
         )
 
 
+@elsewhere("displacement", "external")
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class State(Short):
     """Displacements, forces and what friction remembers.
