@@ -61,6 +61,11 @@ class RowsKept:
         """Fetch all of it, for ranks that will not be asked again."""
         self._home = self.whole()
 
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:
+        """All of it, for NumPy, which writes it."""
+        del copy  # it is one
+        return np.asarray(self.whole(), dtype)
+
     def __reduce__(self) -> tuple[Any, ...]:
         """Whoever copies it or sends it has the array."""
         return frozen, (self.whole(), self.dtype)

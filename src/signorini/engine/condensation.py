@@ -157,6 +157,16 @@ def assembled(examined: Examined, backend: str) -> tuple[Any, str]:
     return whole_stiffness(examined), backend
 
 
+def on_ranks(K: Any) -> bool:
+    """Whether the rows of a stiffness are on the ranks of MPI.
+
+    Parameters
+    ----------
+    K : as it was assembled, see `assembled`
+    """
+    return not isinstance(K, sp.csr_array)
+
+
 def reduced_bodies(examined: Examined, K: Any) -> Any:
     """(z, z) The stiffness of the free displacements: a matrix, or what stands for it where its rows are on ranks.
 
@@ -164,7 +174,7 @@ def reduced_bodies(examined: Examined, K: Any) -> Any:
     ----------
     examined, K : the model, and its stiffness as it was assembled
     """
-    if isinstance(K, sp.csr_array):
+    if not on_ranks(K):
         return reduced_stiffness(K, examined.constraints.transform)
     from signorini.engine.solver_on_ranks import matrix_on_ranks  # needs PETSc
 

@@ -12,6 +12,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray, frozen
 from signorini.distributed.kept_rows import put_away
 from signorini.engine.bolts import bolt_results
+from signorini.engine.condensation import on_ranks
 from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.energy import interface_energy, stored_energy, thermal_energy
 from signorini.engine.increments import applied
@@ -74,8 +75,8 @@ def step_result(
         path=followed.path,
         finished=finished,
         events=followed.events,
-        displacement=put_away(frozen(_displacement(prepared, state))),
-        external=put_away(frozen(_external(prepared, state, loads, held))),
+        displacement=_kept(prepared, _displacement(prepared, state)),
+        external=_kept(prepared, _external(prepared, state, loads, held)),
         obstacles={
             obstacle.name: rigid_result(model, space, j, u, state.external)
             for j, obstacle in enumerate(model.obstacles)
@@ -99,6 +100,12 @@ def step_result(
         notes=(*step_notes(prepared, followed), *((words,) if words else ())),
         yielding=_yielding(prepared, followed, float(stage.number - 1)),
     )
+
+
+def _kept(prepared: Prepared, values: Array) -> Array:
+    """Results at all nodes, read-only; bodies on ranks have them there."""
+    values = frozen(values)
+    return put_away(values) if on_ranks(prepared.K) else values
 
 
 def _paired(prepared: Prepared, state: State) -> Prepared:
@@ -200,7 +207,7 @@ def instant_of(prepared: Prepared, state: State) -> Instant:
         what="start",
         contacts=contacts_of(prepared, state, state),
         work=0.0,
-        displacement=put_away(frozen(_displacement(prepared, state))),
+        displacement=_kept(prepared, _displacement(prepared, state)),
         factors=dict(state.point.factors),
         plastic=_plastic(state, state, whole=True),
         places=frozen(prepared.space.mesh.points) if prepared.meshed is not None else None,
@@ -250,7 +257,7 @@ def _instants(
             work=snapshot.state.work - followed.before.work + heat(snapshot.state) - begun
             if snapshot.worked
             else np.nan,
-            displacement=put_away(frozen(_displacement(prepared, snapshot.state))) if snapshot.kept else None,
+            displacement=_kept(prepared, _displacement(prepared, snapshot.state)) if snapshot.kept else None,
             factors=dict(snapshot.state.point.factors),
             plastic=_plastic(
                 followed.before,

@@ -13,6 +13,7 @@ from signorini.arrays import Array
 from signorini.blas_threads import one_thread
 from signorini.clock import Clock
 from signorini.distributed.ranks import MUMPS, PETSC
+from signorini.engine.condensation import on_ranks
 from signorini.engine.contact_changes import pressed_gap, relaxed, staged, switched
 from signorini.engine.fatigue import with_fatigue
 from signorini.engine.increments import measured
@@ -27,6 +28,7 @@ from signorini.engine.step_parts import (
     StepPart,
     joined,
     keep,
+    kept_by_ranks,
     lightened,
     reached,
     straight_parts,
@@ -203,7 +205,7 @@ def _follow(
     Pairs that were left out as too far apart are looked at after every increment; where one has met the other side, or
     nothing was found without them, the step is solved again with all pairs, and so are those after it.
     """
-    given = prepared.meshed or prepared
+    given, begin = prepared.meshed or prepared, replace(begin, state=begin.state.at_hand())
     model, interface, state, standing = given.model, given.interface, begin.state, begin.standing
     schedule = list(stages(model, factors=state.point.factors, before=standing))
     prepared.clock.expect(sum(_expected(stage) for stage in schedule))
@@ -255,13 +257,18 @@ def _follow(
             status, words = stop.status, str(stop)
         if isinstance(stop, MemoryError):
             status, words = Outcome.NOT_FOUND, f"step {number} of {len(schedule)}: {out_of_memory(stop)}"
-        last = end if steps else None
+        last = _kept(prepared, end) if steps else None
         part = None if isinstance(stop, MemoryError) else reached(stop)
         if part is not None:
             steps.append(step_result(now, schedule[len(steps)], part, (), finished=False))
         return replace(_history(prepared, status, words, steps, last, first), escape=_motion(stop))
-    history = _history(prepared, Outcome.SOLVED, "", steps, end, first)
+    history = _history(prepared, Outcome.SOLVED, "", steps, _kept(prepared, end), first)
     return replace(history, wellposedness=assess(now, end.state)) if wellposed else history
+
+
+def _kept(prepared: Prepared, end: Checkpoint) -> Checkpoint:
+    """The end of a history that nothing goes on from now; bodies on ranks have its state there."""
+    return replace(end, state=kept_by_ranks(end.state)) if on_ranks(prepared.K) else end
 
 
 def _from(

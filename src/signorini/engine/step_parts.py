@@ -191,10 +191,7 @@ class Snapshot:
 
     def asked_for(self, last: bool) -> Snapshot:
         """As one of the results, of which ranks keep all but the last, which the history goes on from."""
-        state, names = self.state, () if last else ("displacement", "external")
-        return replace(
-            self, kept=True, state=replace(state, **{name: put_away(getattr(state, name)) for name in names})
-        )
+        return replace(self, kept=True, state=self.state if last else kept_by_ranks(self.state))
 
     def light(self, flow: bool) -> Snapshot:
         """Without the displacement of the bodies, for a history may have thousands; ``flow``: with plastic strains."""
@@ -239,6 +236,16 @@ class FollowedPart:
     until: Callable[[float], FollowedPart] | None = None
     prepared: Prepared | None = None
     legs: tuple[Leg, ...] = ()
+
+
+def kept_by_ranks(state: State) -> State:
+    """A state that nothing goes on from now, with what it knows of all nodes on the ranks, where there are several.
+
+    Parameters
+    ----------
+    state : with its displacement
+    """
+    return replace(state, displacement=put_away(state.displacement), external=put_away(state.external))
 
 
 def leg_of(part: StepPart, after: State, **way: Any) -> Leg:

@@ -29,9 +29,9 @@ from signorini.linalg._blas import scratch
 from signorini.linalg._graph import Elimination, Rows
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.plan import Plan, Plans, analyse
-from signorini.linalg.protocol import NotPositiveDefinite, Reduced, WithSchur
+from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.shared_fronts import factorise_parts
-from signorini.linalg.system import System, as_columns, like
+from signorini.linalg.system import System, WithSchur, as_columns, like
 from signorini.memory import give_memory_back
 
 SHARED_SOLVE = 2e7

@@ -28,8 +28,8 @@ from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.linalg import multifrontal
 from signorini.linalg.definite import check_energy
-from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced, WithSchur
-from signorini.linalg.system import System, as_columns, interface_lift, like
+from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
+from signorini.linalg.system import System, WithSchur, as_columns, interface_lift, like
 
 SYMMETRIC_POSITIVE_DEFINITE = 2  # its number among kinds of matrices
 SETTINGS = {1: 1, 2: 2, 18: -1, 21: 0, 24: 0}

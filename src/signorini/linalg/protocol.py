@@ -12,10 +12,8 @@ factorised here.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from typing import Protocol, Self, runtime_checkable
-
-import numpy as np
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
 
 from signorini.arrays import Array
 from signorini.errors import SignoriniError
@@ -65,31 +63,6 @@ class Factorisation(Protocol):
 
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load f, (n,) or (n, k)."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class WithSchur:
-    """Factors that hold their condensed stiffness.
-
-    Attributes
-    ----------
-    n, m : unknowns in all, and on the interface
-    condensed : (m, m) S, read-only
-    """
-
-    n: int
-    m: int
-    condensed: Array = field(repr=False)
-
-    def schur(self) -> Array:
-        """Give S, (m, m), read-only."""
-        return self.condensed
-
-    def parted(self) -> tuple[Array, Self]:
-        """S, which may be overwritten, and these factors without it."""
-        S, rest = self.condensed, replace(self, condensed=np.zeros((0, 0)))
-        S.flags.writeable = True
-        return S, rest
 
 
 class NotPositiveDefinite(SignoriniError):

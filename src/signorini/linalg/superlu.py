@@ -20,8 +20,8 @@ from scipy.sparse.linalg import SuperLU, splu
 from signorini.arrays import Array, Int32Array, IntArray
 from signorini.linalg.definite import SUSPICIOUS_PIVOT, check_energy
 from signorini.linalg.ordering import nested_dissection, unknowns
-from signorini.linalg.protocol import NotPositiveDefinite, Reduced, WithSchur
-from signorini.linalg.system import System, as_columns, interface_lift, like, node_graph
+from signorini.linalg.protocol import NotPositiveDefinite, Reduced
+from signorini.linalg.system import System, WithSchur, as_columns, interface_lift, like, node_graph
 
 
 @dataclass(frozen=True, kw_only=True)

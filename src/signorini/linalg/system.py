@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A checked matrix with its interface, and the graph of its nodes: what every back end starts from."""
+"""A checked matrix with its interface, the graph of its nodes, and what is left of it: common to all back ends."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, cast
+from dataclasses import dataclass, field, replace
+from typing import Any, Self, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -53,6 +53,31 @@ class System:
         """K, sharing its memory with this object."""
         indptr, indices, data = self.rows
         return sparse.csr_array((data, indices, indptr), shape=(self.n, self.n))
+
+
+@dataclass(frozen=True, kw_only=True)
+class WithSchur:
+    """Factors that hold their condensed stiffness.
+
+    Attributes
+    ----------
+    n, m : unknowns in all, and on the interface
+    condensed : (m, m) S, read-only
+    """
+
+    n: int
+    m: int
+    condensed: Array = field(repr=False)
+
+    def schur(self) -> Array:
+        """Give S, (m, m), read-only."""
+        return self.condensed
+
+    def parted(self) -> tuple[Array, Self]:
+        """S, which may be overwritten, and these factors without it."""
+        S, rest = self.condensed, replace(self, condensed=np.zeros((0, 0)))
+        S.flags.writeable = True
+        return S, rest
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -99,6 +99,10 @@ class State(Short):
     wear: WearState | None = None
     borne: Borne | None = None
     bonds: Bonds | None = None
+
+    def at_hand(self) -> State:
+        """This state, with what ranks keep of it here: a history goes on from it."""
+        return replace(self)
 
     @property
     def motion(self) -> Array:
