@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is asked of an accuracy beside what is true; writes tables and pictures of docs/accuracy.md.
 
-    python -m benchmarks.accuracy [--dry] [--only plane work variations space ball outputs] [--processes 2]
+    python -m benchmarks.accuracy [--dry] [--only plane work variations space ball outputs drawn] [--processes 2]
 
 "true" is the error against the same model asked for far more, of the ball against Hertz' pressure. "ratio" is the
 estimate over it, "work" the CPU seconds of all meshes and estimates over those of the last mesh alone, its estimate
 left out, and "uniform" the nodes that a mesh needs whose cells are all halved, again and again, for the same error.
 Where a solve takes a second, work has a table of its own. Variations are problems drawn by a seed
-(:mod:`benchmarks.accuracy_variations`). Outputs by name: "before" is the true error on the mesh before the last, and
-what is smaller than the reference's own estimated error is told as below that. Each table comes from one run; problems
-are shared among processes.
+(:mod:`benchmarks.accuracy_variations`). Of outputs by name (:mod:`benchmarks.accuracy_outputs`), what is smaller than
+the reference's own estimated error is told as below that. Each table comes from one run; problems are shared among
+processes.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks import command, page
+from benchmarks import accuracy_outputs, command, page
 from benchmarks.accuracy_variations import FAMILIES, variation
 from signorini.accuracy.curves import curves_of
 from signorini.accuracy.estimate import estimate
@@ -33,7 +33,6 @@ from signorini.gallery import coarse
 from signorini.meshing.simplices import Simplices
 from signorini.model.accuracy import Accuracy
 from signorini.model.model import Model
-from signorini.model.outputs import Output, force, halfwidth, pressure
 from signorini.model.step import Step
 from signorini.plot.accuracy import draw_accuracy
 from signorini.plot.picture_data import PictureData
@@ -52,16 +51,6 @@ FINEST = 60_000
 FINEST_BALL = 600_000
 MEMORY_OF_BALL = 9e9
 """Bytes; its meshes are solved by iteration."""
-OUTPUT_HEAD = ("problem", "output", "asked, %", "nodes", "estimated, %", "true, %", "before, %", "ratio")
-OUTPUTS: tuple[tuple[str, Callable[[], Model], Output], ...] = (
-    ("the paper's cylinder", coarse.cylinder, pressure("seat").peak),
-    ("the paper's cylinder", coarse.cylinder, halfwidth("seat", about=(0.0, 0.0))),
-    ("the paper's cylinder", coarse.cylinder, force("seat", along=(1.0, 0.0), of="friction")),
-    ("two cylinders, friction 0.3", coarse.two_cylinders, pressure("seat").peak),
-    ("two cylinders, friction 0.3", coarse.two_cylinders, force("seat", along=(0.0, 1.0))),
-    ("rounded punch, friction 0.3", coarse.rounded_punch, pressure("seat").peak),
-    ("rounded punch, friction 0.3", coarse.rounded_punch, force("seat", along=(0.0, 1.0))),
-)
 
 KINDS: dict[str, Callable[[], Model]] = {
     "hertz": coarse.hertz_line,
@@ -84,7 +73,7 @@ PLANE: dict[str, tuple[str, Callable[[], Model]]] = {
 FLAT = "flat punch, stresses"
 PROBLEMS = (*PLANE, FLAT)
 DRAWN = ("Hertz, line", "the paper's cylinder", "two cylinders, friction 0.3")
-TABLES = ("plane", "work", "variations", "space", "ball", "outputs")
+TABLES = ("plane", "work", "variations", "space", "ball", "outputs", "drawn")
 WORK_HEAD = (
     "problem",
     "asked, %",
@@ -145,6 +134,10 @@ def main() -> None:
             drawn = list(itertools.product(FAMILIES, range(VARIATIONS)))
             text = varied(list(pool.map(variant, *zip(*drawn, strict=True))))
             command.publish(options, "variations", text, DOCUMENT)
+        if "drawn" in options.only:
+            runs = pool.map(accuracy_outputs.variant, *zip(*accuracy_outputs.problems(), strict=True))
+            text = accuracy_outputs.drawn([run for part in runs for run in part])
+            command.publish(options, "drawn", text, DOCUMENT)
     if "work" in options.only:
         solve(coarse.cylinder(), accuracy=0.1)
         command.publish(options, "work", page.table(WORK_HEAD, [work(*one) for one in LONG]), DOCUMENT)
@@ -153,7 +146,7 @@ def main() -> None:
             rows = measured("Hertz, point, in space", coarse.ball, errors, "pressure", point_error, in_space=True)[0]
             command.publish(options, table, page.table(HEAD, rows), DOCUMENT)
     if "outputs" in options.only:
-        command.publish(options, "outputs", page.table(OUTPUT_HEAD, outputs()), DOCUMENT)
+        command.publish(options, "outputs", page.table(accuracy_outputs.HEAD, accuracy_outputs.outputs()), DOCUMENT)
 
 
 def problem(name: str) -> Measured:
@@ -310,24 +303,6 @@ def work(name: str, pose: Callable[[], Model], asked: float) -> tuple[object, ..
     row = (*row, f"{last:.2f}", f"{estimated:.2f}", f"{seconds / last:.1f}")
     print(*row, sep=" | ", flush=True)
     return row
-
-
-def outputs() -> list[tuple[object, ...]]:
-    """Rows of outputs: beside the same asked for far more."""
-    rows: list[tuple[object, ...]] = []
-    for name, pose, output in OUTPUTS:
-        fine = solve(pose(), accuracy=Accuracy(2e-5, of=output, nodes=90_000)).accuracy
-        for error in (0.01, 0.001):
-            found = solve(pose(), accuracy=Accuracy(error, of=output, nodes=FINEST)).accuracy
-            assert fine is not None
-            assert found is not None
-            before, exact = (abs(level.value / fine.value - 1.0) for level in found.levels[-2:])
-            nodes = f"{found.levels[-1].nodes}{'' if found.met else ' (most)'}"
-            known, below = max(exact, fine.output), ("< ", "> ") if exact < fine.output else ("", "")
-            told = f"{100 * found.output:.3f}", f"{below[0]}{100 * known:.3f}", f"{100 * before:.3f}"
-            rows.append((name, output, f"{100 * error:g}", nodes, *told, f"{below[1]}{found.output / known:.1f}"))
-            print(*rows[-1], sep=" | ", flush=True)
-    return rows
 
 
 def uniformly(model: Model, true: Callable[[Solution], float]) -> list[tuple[int, float]]:

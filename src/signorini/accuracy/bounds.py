@@ -28,6 +28,10 @@ few pairs, whose errors are those of the ends alone."""
 SHARE_OF_ROOM, SMALLEST_GROWTH = 0.9, 1.2
 """Of the nodes that a mesh may have: what it is made for where errors ask for more; the least growth worth a mesh."""
 
+SHARE_FOR_OUTPUTS = {2: 0.6, 3: 0.3}
+"""The same for outputs: where the facets that touch are halved a mesh has up to one and a half times, in space three
+times the nodes."""
+
 LEVELS = 40
 """Meshes that are tried at most; each has some 1.5 times the nodes of the one before, so that nodes end it first."""
 
@@ -89,7 +93,7 @@ class Bounds:
         levels : meshes so far, with this one
         """
         request, d, error = self._request, model.dimension, found.of(self._request.of)
-        least, most = LEAST_GROWTH if isinstance(request.of, str) else MOST_GROWTH, MOST_GROWTH
+        least, most = LEAST_GROWTH, MOST_GROWTH
         even, in_space = (isinstance(request.of, str) and d == own for own in (PLANE, IN_SPACE))
         lacks = min(max(error / request.error / (SHARE_IN_SPACE if in_space else SAFE_SHARE), 1.0), 1e6)
         needed = lacks ** (1.0 / self._power(found, model, levels))
@@ -97,7 +101,8 @@ class Bounds:
             needed **= 1.0 / math.ceil(math.log(needed) / math.log(MOST_IN_PLANE))
         if even or (in_space and needed <= MOST_TO_THE_LAST):
             most = max(needed, least)
-        room = SHARE_OF_ROOM * request.nodes / len(model.mesh.points)
+        share = SHARE_OF_ROOM if isinstance(request.of, str) else SHARE_FOR_OUTPUTS[d]
+        room = share * request.nodes / len(model.mesh.points)
         times = min(max(needed, least), most, room if room > SMALLEST_GROWTH else most)
         return Growth(least=min(least, times), most=times, share=1.0 / lacks if even else 0.0)
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import cast
 
@@ -26,6 +26,9 @@ from signorini.model.outputs import AtNode, Displacement, Dissipation, Mean, Out
 
 _WHERE = ("accuracy", "of")
 
+Solved = tuple[Model, Tape]
+"""A model and its history."""
+
 
 class Goal:
     """An output that is to be accurate, on mesh after mesh.
@@ -38,39 +41,43 @@ class Goal:
     def __init__(self, output: Output) -> None:
         self._output, self._levels = output, list[OutputLevel]()
 
-    def estimated(self, found: Estimate, model: Model, tape: Tape | None) -> Estimate:
+    def estimated(self, found: Estimate, solved: Solved, halved: Callable[[], Solved | None]) -> Estimate:
         """An estimate with what is asked for: the output, its error, and cells by what their errors count for it.
 
-        Half of a cell's share is that of its stresses, since what is lost at the end of a contact no dual stress tells.
+        Half of a cell's share is that of its stresses; the other half is that of what pressures lack around it, since
+        what is lost between the nodes of a contact no dual stress tells.
 
         Parameters
         ----------
         found : without it
-        model, tape : that was solved, and its history
+        solved : on the mesh
+        halved : solves where the facets that touch are halved; None where that is not to be, or has no solution
 
         Raises
         ------
         InputError
             By name, what derivatives do not know.
         """
-        assert tape is not None
-        value, products, signed = self._products(model, tape)
-        self._levels.append(
-            OutputLevel(
-                value=value,
-                nodes=len(model.mesh.points),
-                signed=signed,
-                products=float(products.sum()),
-            )
-        )
+        model, tape = solved
+        number, products, signed = self._products(model, tape)
+        there = halved() if np.isfinite(number) else None
+        level = OutputLevel(value=number, nodes=len(model.mesh.points), signed=signed)
+        self._levels.append(level if there is None else replace(level, halved=self._value(*there)))
         lacks = output_error(self._levels)
-        shares = [part / part.sum() for part in (products, found.squares) if part.sum() > 0.0]
+        shares = [part / part.sum() for part in (products, found.weights) if part.sum() > 0.0]
         return replace(
             found,
-            value=value,
-            output=lacks / abs(value) if value and np.isfinite(value) else float("inf"),
+            value=number,
+            output=lacks / abs(number) if number and np.isfinite(number) else float("inf"),
             weights=sum(shares, np.zeros(len(products))),
         )
+
+    def _value(self, model: Model, tape: Tape) -> float:
+        """The output; nan where nothing presses, or in one place alone."""
+        try:
+            return value(self._output, TapedHistory(tape, model).view)
+        except InputError:
+            return float("nan")
 
     def _products(self, model: Model, tape: Tape) -> tuple[float, Array, float]:
         """The output, of every cell the product of its errors of stresses and of dual ones in energy, and their work.

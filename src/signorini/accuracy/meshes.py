@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from signorini.accuracy.kept_nodes import KeptNodes
 from signorini.accuracy.node_values import CarriedValues, has_node_values
 from signorini.accuracy.rest_of_skin import with_rest, without_rest
 from signorini.accuracy.sector_sides import sector_twins
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.fem.jacobian import determinants
 from signorini.meshing.simplices import Curve, Simplices, corner_numbers
@@ -31,6 +32,9 @@ the plane where stresses are smooth, and 1.5 at the end of a contact, where they
 
 _FALL_TOGETHER = 2.0
 """The same for all cells together, as they have fallen in the plane where ten pairs touch or more: 1.6 and more."""
+
+_ALL_EDGES = {3: 1, 4: 3}
+"""How many times a simplex of as many corners is refined until all its edges are halved, about."""
 
 _CELLS_MORE = 4
 """Cells more for each that is refined: it becomes two to four, and neighbours are bisected too."""
@@ -86,7 +90,7 @@ class RefinedMeshes:
 
     def first(self) -> Model:
         """On the simplices of the mesh that was given."""
-        return self._posed()
+        return self._posed(self.simplices, self._values)
 
     def next(self, weights: Array, growth: Growth) -> Model:
         """On simplices refined where errors are.
@@ -99,11 +103,23 @@ class RefinedMeshes:
         self.simplices = grown(self.simplices, weights, growth, self._curves)
         if self._values is not None:
             self._values.refine(self.simplices)
-        return self._posed()
+        return self._posed(self.simplices, self._values)
 
-    def _posed(self) -> Model:
-        mesh = self._kept.on(without_rest(self.simplices.mesh(self._order, self._curves)))
-        model = replace(self._model, mesh=mesh) if self._values is None else self._values.on(mesh)
+    def halved(self, cells: BoolArray) -> Model:
+        """On simplices of which some are halved, with all their edges; what is refined afterwards is the mesh as it is.
+
+        Parameters
+        ----------
+        cells : (m,) which
+        """
+        finer, values = halved(self.simplices, cells, self._curves), copy(self._values)
+        if values is not None:
+            values.refine(finer)
+        return self._posed(finer, values)
+
+    def _posed(self, simplices: Simplices, values: CarriedValues | None) -> Model:
+        mesh = self._kept.on(without_rest(simplices.mesh(self._order, self._curves)))
+        model = replace(self._model, mesh=mesh) if values is None else values.on(mesh)
         bodies = [
             replace(body, formulation=None) if body.formulation == "incompatible" else body for body in model.bodies
         ]
@@ -122,9 +138,8 @@ def grown(simplices: Simplices, squares: Array, growth: Growth, curves: dict[str
     growth : of the number of cells
     curves : true shapes of boundaries
     """
-    found, least, most = simplices, *(times * len(simplices.cells) for times in (growth.least, growth.most))
-    sizes, left, together = _sizes(simplices), squares, squares
-    origin, parents = np.arange(len(squares)), np.repeat(np.arange(len(simplices.points))[:, None], 2, axis=1)
+    least, most = (times * len(simplices.cells) for times in (growth.least, growth.most))
+    found, sizes, left, together = _unrefined(simplices), _sizes(simplices), squares, squares
     enough = growth.share**2 * float(squares.sum())
     while len(found.cells) < least or (len(found.cells) < most and float(together.sum()) > enough):
         room = int((most - len(found.cells)) / _CELLS_MORE) + 1
@@ -132,10 +147,35 @@ def grown(simplices: Simplices, squares: Array, growth: Growth, curves: dict[str
         smaller = _sizes(finer)
         fall = smaller / sizes[finer.origin]
         left, together = left[finer.origin] * fall**_FALL, together[finer.origin] * fall**_FALL_TOGETHER
-        origin, sizes = origin[finer.origin], smaller
-        parents = np.vstack([parents, finer.parents[len(parents) :]])
-        found = finer
-    return replace(found, parents=parents, origin=origin)
+        found, sizes = _since(found, finer), smaller
+    return found
+
+
+def halved(simplices: Simplices, cells: BoolArray, curves: dict[str, Curve]) -> Simplices:
+    """Simplices of which some are halved until all their edges are, about; parents and origins as of `grown`.
+
+    Parameters
+    ----------
+    simplices : to begin with
+    cells : (m,) which
+    curves : true shapes of boundaries
+    """
+    found = _unrefined(simplices)
+    for _ in range(_ALL_EDGES[simplices.cells.shape[1]]):
+        found = _since(found, found.refined(np.flatnonzero(cells[found.origin]), curves))
+    return found
+
+
+def _unrefined(simplices: Simplices) -> Simplices:
+    """With parents and origins that begin with these simplices."""
+    corners, cells = np.arange(len(simplices.points)), np.arange(len(simplices.cells))
+    return replace(simplices, parents=np.column_stack([corners, corners]), origin=cells)
+
+
+def _since(found: Simplices, finer: Simplices) -> Simplices:
+    """Simplices that others were refined to, with parents and origins that begin where those of these do."""
+    parents = np.vstack([found.parents, finer.parents[len(found.parents) :]])
+    return replace(finer, parents=parents, origin=found.origin[finer.origin])
 
 
 def _on_corners(equation: Equation, i: int, mesh: Mesh) -> Equation:

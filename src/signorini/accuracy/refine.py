@@ -13,6 +13,7 @@ import numpy as np
 from signorini.accuracy.bounds import Bounds
 from signorini.accuracy.estimate import IN_SPACE, Estimate, estimate
 from signorini.accuracy.meshes import RefinedMeshes
+from signorini.accuracy.touching import touching_cells
 from signorini.arrays import IntArray, among
 from signorini.engine.tape import Tape
 from signorini.errors import InputError
@@ -75,8 +76,9 @@ def _refined(model: Model, request: Accuracy, solve: Callable[..., History]) -> 
             if not history.solved:
                 return history if known is None else _interrupted(known, history)
             found = estimate(history, before)
-            if goal is not None:
-                found = goal.estimated(found, posed, tape)
+            if goal is not None and tape is not None:
+                beside = partial(_halved, solve, meshes, history, partial(bounds.end, len(posed.mesh.points)))
+                found = goal.estimated(found, (posed, tape), beside)
         except InputError as error:
             if known is None or known.accuracy is None:
                 raise
@@ -95,6 +97,23 @@ def _refined(model: Model, request: Accuracy, solve: Callable[..., History]) -> 
         if met or reason:
             return known
         before = meshes.simplices, known, found
+
+
+def _halved(
+    solve: Callable[..., History], meshes: RefinedMeshes, history: History, end: Callable[..., str]
+) -> tuple[Model, Tape] | None:
+    """Solved where the facets that touch are halved; None where a bound forbids it, or it has no solution.
+
+    Parameters
+    ----------
+    solve : see `accurate`
+    meshes, history : the mesh as it is, and what was solved on it
+    end : see :meth:`Bounds.end`, for the nodes that there are now
+    """
+    model, tape = meshes.halved(touching_cells(history, meshes.simplices.cells)), Tape()
+    if end(len(model.mesh.points), 1, iterated=history.backend == ITERATIVE):
+        return None
+    return (model, tape) if solve(model, tape=tape).solved else None
 
 
 def _interrupted(known: History, history: History) -> History:
