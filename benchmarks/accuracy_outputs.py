@@ -61,20 +61,24 @@ Run = tuple[str, str, float, float, float, float, bool, int]
 """Problem, output, what is asked, estimated, true and known of that at best, met or not, and nodes."""
 
 
-def outputs() -> list[tuple[object, ...]]:
-    """Rows of outputs: beside the same asked for far more, and all meshes over the last one."""
-    rows = list[tuple[object, ...]]()
-    for name, pose, output in OUTPUTS:
-        _, fine = _asked(pose(), output, FARTHER, FINE)
-        for error in ASKED:
-            seconds, (solution, found) = command.cpu(_asked, pose(), output, error, FINEST)
-            last = command.cpu(solve, solution.model)[0]
-            exact, told = _apart(found, fine), _error(found)
-            nodes = f"{found.levels[-1].nodes}{'' if found.met else ' (most)'}"
-            known, signs = max(exact, _error(fine)), ("< ", "> ") if exact < _error(fine) else ("", "")
-            row = (name, output, f"{100 * error:g}", nodes, f"{100 * told:.4f}", f"{signs[0]}{100 * known:.4f}")
-            rows.append((*row, f"{signs[1]}{told / known:.1f}", f"{seconds / last:.1f}"))
-            print(*rows[-1], sep=" | ", flush=True)
+def rows_of(number: int) -> list[tuple[object, ...]]:
+    """Rows of an output: beside the same asked for far more, and all meshes over the last one.
+
+    Parameters
+    ----------
+    number : of `OUTPUTS`
+    """
+    rows, (name, pose, output) = list[tuple[object, ...]](), OUTPUTS[number]
+    _, fine = _asked(pose(), output, FARTHER, FINE)
+    for error in ASKED:
+        seconds, (solution, found) = command.cpu(_asked, pose(), output, error, FINEST)
+        last = command.cpu(solve, solution.model)[0]
+        exact, told = _apart(found, fine), _error(found)
+        nodes = f"{found.levels[-1].nodes}{'' if found.met else ' (most)'}"
+        known, signs = max(exact, _error(fine)), ("< ", "> ") if exact < _error(fine) else ("", "")
+        row = (name, output, f"{100 * error:g}", nodes, f"{100 * told:.4f}", f"{signs[0]}{100 * known:.4f}")
+        rows.append((*row, f"{signs[1]}{told / known:.1f}", f"{seconds / last:.1f}"))
+        print(*rows[-1], sep=" | ", flush=True)
     return rows
 
 

@@ -9,7 +9,6 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from signorini.arrays import Array, BoolArray, IntArray, among
-from signorini.model.contact import Contact
 from signorini.model.model import Model
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult
@@ -24,20 +23,16 @@ def touching_cells(history: History, cells: IntArray) -> BoolArray:
     cells : (m, d + 1) corners, of the simplices of its mesh
     """
     model = history.model
-    touching = [
-        _corners(model, contact, result)
-        for step in history.steps
-        for contact, result in zip(model.contacts, step.contacts, strict=True)
-    ]
+    touching = [_corners(model, result) for step in history.steps for result in step.contacts]
     return np.asarray(among(list(chain.from_iterable(touching)), len(model.mesh.points))[cells].any(axis=1))
 
 
-def _corners(model: Model, contact: Contact, result: ContactResult) -> list[IntArray]:
+def _corners(model: Model, result: ContactResult) -> list[IntArray]:
     """Nodes of both sides that touch: on the mortar side, of a body, those to which a pair that does is the nearest."""
     closed, points = result.closed, model.mesh.points
     found = [result.node[closed]]
-    if result.coupling != "obstacle" and not model.mesh.bounds_nothing(contact.mortar):
-        opposite = model.mesh.nodes_of(contact.mortar)
+    if result.coupling != "obstacle" and not model.mesh.bounds_nothing(result.mortar):
+        opposite = model.mesh.nodes_of(result.mortar)
         found.append(opposite[closed[_nearest(points[result.node], points[opposite])]])
     return found
 
