@@ -133,13 +133,18 @@ def drawn(runs: Sequence[Run]) -> str:
     for kind, held in itertools.product([*kinds, "all"], (False, True)):
         own = [run for run in runs if kind in (run[1], "all") and bool(int(run[0].split()[-1]) % 2) == held]
         met = [run for run in own if run[6]]
+        if not met:
+            continue
         ratios = np.array([run[3] / run[4] for run in met if run[4] > RESOLVED * run[5]])
-        told = f"{ratios.min():.2f} to {ratios.max():.2f}", sum((ratios >= 0.7) & (ratios <= 2.0))
+        median, ends = "", ""
+        if len(ratios):
+            median, ends = f"{np.median(ratios):.2f}", f"{ratios.min():.2f} to {ratios.max():.2f}"
+        within = f"{int(((ratios >= 0.7) & (ratios <= 2.0)).sum())} of {len(ratios)}"
         most = max(run[4] / run[2] for run in met)
         below = sum(run[4] <= run[2] for run in met)
         counts = len(own), len(met), f"{below} of {len(met)}", f"{most:.2f}"
         words = "held out" if held else "looked at"
-        rows.append((kind, words, *counts, f"{np.median(ratios):.2f}", told[0], f"{told[1]} of {len(ratios)}"))
+        rows.append((kind, words, *counts, median, ends, within))
     for problem, kind, asked, seen, true, _, met, nodes in runs:
         if not met or true > asked:
             words = (
