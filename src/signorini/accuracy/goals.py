@@ -44,8 +44,8 @@ class Goal:
     def estimated(self, found: Estimate, solved: Solved, halved: Callable[[], Solved | None]) -> Estimate:
         """An estimate with what is asked for: the output, its error, and cells by what their errors count for it.
 
-        Half of a cell's share is the product of its errors of stresses and of dual ones, half what counts for pressures,
-        since what is lost between the nodes of a contact no dual stress tells.
+        Half of a cell's share is the product of its errors of stresses and of dual ones, half is what counts for
+        pressures, since what is lost between the nodes of a contact no dual stress tells.
 
         Parameters
         ----------
