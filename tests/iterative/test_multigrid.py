@@ -7,8 +7,11 @@ import scipy.sparse as sp
 
 from signorini.engine.prepare import prepare
 from signorini.gallery.cubes import cubes
-from signorini.linalg._sweeps import sweep_back, sweep_from_zero
+from signorini.iterative.aggregation import aggregated, largest_eigenvalue
+from signorini.iterative.springs import PairSprings
+from signorini.linalg._sweeps import prolong, restrict, sweep_back, sweep_from_zero
 from signorini.linalg.krylov import conjugate_gradients
+from signorini.linalg.symmetric_blocks import SymmetricBlocks
 
 
 @pytest.fixture(scope="module")
@@ -16,19 +19,30 @@ def bodies():
     return prepare(cubes(9, 7), backend="iterative").solver.bodies
 
 
-@pytest.mark.parametrize("d", [2, 3, 6])
-def test_sweeps_are_those_of_triangles(d):
+def random_matrix(d):
+    """Symmetric, in 20 rows of blocks, and the same dense."""
     rng = np.random.default_rng(d)
     whole = np.kron(sp.random_array((20, 20), density=0.2, rng=rng).toarray() != 0, np.ones((d, d)))
     whole *= rng.standard_normal(whole.shape)
     whole = whole + whole.T + 20.0 * d * np.eye(20 * d)
-    A = sp.bsr_array(whole, blocksize=(d, d))
-    A.sort_indices()
-    diagonal = np.stack([whole[i : i + d, i : i + d] for i in range(0, 20 * d, d)])
-    parts = ((0,) * d, A.indptr, A.indices, A.data, np.linalg.inv(diagonal))
-    below = np.tril(np.kron(np.tril(np.ones((20, 20)), -1), np.ones((d, d)))) * whole
-    lower = below + sp.block_diag(diagonal).toarray()
-    b = rng.standard_normal(20 * d)
+    return SymmetricBlocks.of(sp.bsr_array(whole, blocksize=(d, d))), whole
+
+
+@pytest.mark.parametrize("d", [1, 2, 3, 6])
+def test_half_of_a_matrix_is_the_matrix(d):
+    A, whole = random_matrix(d)
+    x = np.random.default_rng(7).standard_normal(20 * d)
+    np.testing.assert_array_equal(A.whole.toarray(), whole)
+    np.testing.assert_allclose(A @ x, whole @ x, atol=1e-12)
+
+
+@pytest.mark.parametrize("d", [1, 2, 3, 6])
+def test_sweeps_are_those_of_triangles(d):
+    A, whole = random_matrix(d)
+    parts = ((0,) * d, A.indptr, A.indices, A.lower, np.linalg.inv(A.diagonal))
+    below = A.below.toarray()
+    lower = below + A.on_diagonal.toarray()
+    b = np.random.default_rng(8).standard_normal(20 * d)
     x, residual = sweep_from_zero(*parts, b.reshape(-1, d))
     np.testing.assert_allclose(lower @ x.ravel(), b, atol=1e-12)
     np.testing.assert_allclose(residual.ravel(), b - whole @ x.ravel(), atol=1e-12)
@@ -37,14 +51,45 @@ def test_sweeps_are_those_of_triangles(d):
     np.testing.assert_allclose(lower.T @ y.ravel(), b - below @ x.ravel(), atol=1e-12)
 
 
+def test_prolongation_and_restriction_are_transposed():
+    rng = np.random.default_rng(3)
+    P = sp.bsr_array(np.kron(rng.random((7, 4)) < 0.4, np.ones((3, 6))) * rng.random((21, 24)), blocksize=(3, 6))
+    parts, fine, coarse = (3 * (0,), P.indptr, P.indices, P.data), rng.random((7, 3)), rng.random((4, 6))
+    up, down = fine.copy(), coarse.copy()
+    prolong(*parts, coarse, up)
+    restrict(*parts, fine, down)
+    np.testing.assert_allclose(up.ravel(), fine.ravel() + P @ coarse.ravel(), atol=1e-14)
+    np.testing.assert_allclose(down.ravel(), coarse.ravel() + P.T @ fine.ravel(), atol=1e-14)
+
+
+def test_coarser_matrices_are_what_prolongations_leave_of_finer_ones(bodies):
+    near_null = np.random.default_rng(4).standard_normal((bodies.K.shape[0], 6))
+    levels, coarsest = aggregated(bodies.K, near_null, 5)
+    matrices = [each.A for each in levels] + [coarsest]
+    assert len(levels) > 1
+    for fine, coarse, (_, P) in zip(matrices[:-1], matrices[1:], levels, strict=True):
+        np.testing.assert_allclose((P.T @ fine.whole @ P - coarse.whole).data, 0.0, atol=1e-12 * fine.diagonal.max())
+
+
+def test_the_largest_eigenvalue_is_found_from_below(bodies):
+    K = bodies.K.whole.toarray()
+    exact = np.linalg.eigvals(K / np.diag(K)[:, None]).real.max()
+    assert 0.9 * exact < largest_eigenvalue(bodies.K) <= exact * (1.0 + 1e-12)
+
+
 def springs(bodies, normal, tangential):
     """Of all pairs, as parts of their stiffness."""
-    shares = np.repeat([normal, tangential, tangential], len(bodies.pairs))
-    return sp.csr_array(bodies.B.T @ sp.diags_array(shares * np.tile(bodies.stiffness, 3)) @ bodies.B)
+    across = np.eye(2)[:, :, None] * (tangential * bodies.stiffness)
+    return PairSprings(normal=normal * bodies.stiffness, tangent=across)
+
+
+def added(bodies, own):
+    """What springs add to the stiffness."""
+    return sp.csr_array(bodies.B.T @ own.matrix() @ bodies.B)
 
 
 def test_a_cycle_is_symmetric_and_positive(bodies):
-    cycle = bodies.preconditioner.under(springs(bodies, 1.0, 0.1))
+    cycle = bodies.preconditioner.under(bodies.B, springs(bodies, 1.0, 0.1))
     x, y = np.random.default_rng(1).standard_normal((2, bodies.K.shape[0]))
     assert x @ cycle(y) == pytest.approx(y @ cycle(x), rel=1e-10)
     assert x @ cycle(x) > 0
@@ -54,19 +99,28 @@ def test_springs_replace_those_before_at_the_nodes_of_contacts(bodies):
     """On the finest level: the matrix is that of bodies and the last springs, whatever there was before."""
     for parts in ((1.0, 1.0), (0.3, 0.0)):
         own = springs(bodies, *parts)
-        level = bodies.preconditioner.under(own).levels[0]
-        np.testing.assert_allclose((level.A - bodies.K - own).data, 0.0, atol=1e-12 * bodies.K.data.max())
-        whole = (bodies.K + own).toarray()
-        d = level.A.blocksize[0]
-        for i in (0, int(bodies.B.indices[0]) // d):
-            block = whole[d * i : d * i + d, d * i : d * i + d]
-            np.testing.assert_allclose(level.inverses[i] @ block, np.eye(d), atol=1e-10)
+        level = bodies.preconditioner.under(bodies.B, own).levels[0]
+        whole = (bodies.K.whole + added(bodies, own)).toarray()
+        np.testing.assert_allclose(level.A.whole.toarray(), whole, atol=1e-12 * whole.max())
+        np.testing.assert_allclose(
+            level.inverses @ level.A.diagonal, np.tile(np.eye(3), (len(whole) // 3, 1, 1)), atol=1e-10
+        )
+
+
+def test_springs_of_some_pairs_are_those_of_fewer_bodies(bodies):
+    """Where pairs are switched off, what was made for all of them serves."""
+    kept = np.arange(len(bodies.active)) % 2 == 0
+    fewer = bodies.among(kept)
+    own = springs(fewer, 1.0, 0.5)
+    level = bodies.preconditioner.under(fewer.B, own).levels[0]
+    whole = (bodies.K.whole + added(fewer, own)).toarray()
+    np.testing.assert_allclose(level.A.whole.toarray(), whole, atol=1e-12 * whole.max())
 
 
 @pytest.mark.parametrize("parts", [(0.0, 0.0), (1.0, 0.0), (1.0, 0.1), (1.0, 1.0)])
 def test_every_state_of_contact_takes_the_same_few_iterations(bodies, parts):
     own = springs(bodies, *parts)
     force = bodies.B.T @ np.random.default_rng(2).standard_normal(bodies.B.shape[0])
-    cycle = bodies.preconditioner.under(own)
-    _, count = conjugate_gradients(lambda v: bodies.K @ v + own @ v, cycle, force, 1e-8)
+    cycle, more = bodies.preconditioner.under(bodies.B, own), added(bodies, own)
+    _, count = conjugate_gradients(lambda v: bodies.K @ v + more @ v, cycle, force, 1e-8)
     assert count <= 32

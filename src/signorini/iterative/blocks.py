@@ -9,6 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.linalg.symmetric_blocks import SymmetricBlocks
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,31 +38,13 @@ class Blocks:
         shape = (B.shape[0], self.size * self.count)
         return sp.csr_array((B.data, self.place[B.indices], B.indptr), shape=shape)
 
-    def matrix(self, K: sp.csr_array) -> sp.bsr_array:
+    def matrix(self, K: sp.csr_array) -> SymmetricBlocks:
         """A symmetric matrix (z, z) in blocks, ones of its size on the diagonal of the padding."""
         d, n = self.size, self.size * self.count
-        K = _with_places(K)
-        order = np.argsort(self.place)
-        K = K if (np.diff(order) == 1).all() else sp.csr_array(K[order])
-        counts = np.zeros(n + 1, dtype=np.int64)
-        counts[self.place[order] + 1] = np.diff(K.indptr)
-        whole = sp.csr_array((K.data, self.place[K.indices], np.cumsum(counts)), shape=(n, n))
-        blocks = sp.bsr_array(whole, blocksize=(d, d))
-        rows = np.repeat(np.arange(self.count), np.diff(blocks.indptr))
-        own = np.flatnonzero(blocks.indices == rows)  # one a row, in order
+        blocks = SymmetricBlocks.gathered(K, self.place, self.count, d)
         across = np.setdiff1d(np.arange(n), self.place)  # the padding
-        blocks.data[own[across // d], across % d, across % d] = whole.diagonal().sum() / len(self.place)
+        blocks.diagonal[across // d, across % d, across % d] = K.diagonal().sum() / len(self.place)
         return blocks
-
-
-def _with_places(K: sp.csr_array) -> sp.csr_array:
-    """K with zeros stored on the diagonal of empty rows: of obstacles and rigid bodies, which are not stiff."""
-    bare = np.flatnonzero(np.diff(K.indptr) == 0)
-    if not len(bare):
-        return K
-    entries = K.tocoo()
-    rows, columns = np.append(entries.row, bare), np.append(entries.col, bare)
-    return sp.csr_array((np.append(entries.data, np.zeros(len(bare))), (rows, columns)), shape=K.shape)
 
 
 def make_blocks(nodes: IntArray, axis: IntArray, size: int) -> Blocks:

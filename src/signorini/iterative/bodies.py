@@ -11,7 +11,7 @@ from typing import Any, Protocol
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, distinct
 from signorini.interface.active import FreeBodies, with_supple
 from signorini.interface.interface import Interface
 from signorini.iterative.blocks import make_blocks
@@ -23,6 +23,7 @@ from signorini.iterative.solve import solve_iteratively
 from signorini.iterative.springs import PairSprings
 from signorini.law.result import ContactAnswer
 from signorini.linalg.krylov import conjugate_gradients
+from signorini.linalg.symmetric_blocks import SymmetricBlocks
 
 ITERATIVE = "iterative"
 """The name of this way among the back ends."""
@@ -34,8 +35,8 @@ _SHARP_AIM = 1e-12  # of the sizes of the data: what bodies that are hardly load
 class Preconditioner(Protocol):
     """What makes conjugate gradients fast: multigrid, or factors."""
 
-    def under(self, springs: sp.csr_array) -> Callable[[Array], Array]:
-        """An approximate solution x of ``(K + springs) x = b``, symmetric in b, for springs (b, b) of contacts."""
+    def under(self, B: sp.csr_array, springs: PairSprings) -> Callable[[Array], Array]:
+        """An approximate solution x of ``(K + B' S B) x = b``, symmetric in b, for springs S of pairs, motions B."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -51,7 +52,7 @@ class Bodies(IteratedPairs):
     aim : residual down to which rounds go on that need not, as long as it falls
     """
 
-    K: sp.bsr_array
+    K: SymmetricBlocks
     B: sp.csr_array
     rigid: sp.csr_array
     preconditioner: Preconditioner
@@ -109,7 +110,7 @@ class Bodies(IteratedPairs):
 
     def preconditioner_under(self, springs: PairSprings) -> Callable[[Array], Array]:
         """What makes conjugate gradients fast under springs in the pairs."""
-        return self.preconditioner.under(self._added(springs))
+        return self.preconditioner.under(self.B, springs)
 
     def solved(
         self, springs: PairSprings, preconditioner: Callable[[Array], Array], g: Array, residual: float
@@ -120,12 +121,11 @@ class Bodies(IteratedPairs):
         ----------
         springs, preconditioner, g, residual : as there
         """
-        added = self._added(springs)
-        return conjugate_gradients(lambda v: self.K @ v + added @ v, preconditioner, g, residual)
 
-    def _added(self, springs: PairSprings) -> sp.csr_array:
-        """(b, b) What springs in the pairs add to the stiffness."""
-        return self._transposed @ springs.matrix() @ self.B
+        def product(v: Array) -> Array:
+            return self.internal(v) + self.pushed(springs.forces(self.seen(v)))
+
+        return conjugate_gradients(product, preconditioner, g, residual)
 
     def factored(self, nodes: IntArray, points: Array, *, patience: int) -> Bodies:
         """Bodies with factors in place of multigrid: thin bodies and flat cells cost those nothing.
@@ -170,7 +170,7 @@ def make_bodies(
     chosen = chosen_pairs(B, interface, candidates)
     blocks = make_blocks(nodes, axis, d)
     matrix, motions = blocks.matrix(K), blocks.columns(chosen.B)
-    felt = np.asarray((chosen.B @ K).multiply(chosen.B).sum(axis=1)).ravel().reshape(d, -1).max(axis=0, initial=0.0)
+    felt = _felt(chosen.B, K).reshape(d, -1).max(axis=0, initial=0.0)
     near = blocks.spread(near_null(arms(points, nodes), axis, d))
     return Bodies(
         **chosen.data(interface, _SPRING_SHARE * with_supple(felt, interface, chosen.pairs)),
@@ -180,6 +180,13 @@ def make_bodies(
         blocks=blocks,
         preconditioner=Multigrid(matrix, near, motions),
     )
+
+
+def _felt(B: sp.csr_array, K: sp.csr_array) -> Array:
+    """(m,) ``b K b'`` of every row b of B; only what of K is between the unknowns that some row sees is looked at."""
+    seen = distinct(B.indices)
+    rows = sp.csr_array(B[:, seen])
+    return np.asarray((rows @ K[seen][:, seen]).multiply(rows).sum(axis=1)).ravel()
 
 
 def arms(points: Array, nodes: IntArray) -> Array:

@@ -10,7 +10,9 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
 from signorini.errors import SolveFailed
+from signorini.iterative.springs import PairSprings
 from signorini.linalg import NotPositiveDefinite, factorise
+from signorini.linalg.symmetric_blocks import SymmetricBlocks
 from signorini.outcome import Outcome
 
 _MAX_ENTRIES = 1e8  # entries in all factorisations together: a minute or two
@@ -25,29 +27,30 @@ class Direct:
 
     Parameters
     ----------
-    K : (n, n) stiffness in blocks of a node
+    K : (n, n) stiffness
     nodes : (n,) number of the place of every unknown
     points : (k, d) where those are
     """
 
-    def __init__(self, K: sp.bsr_array, nodes: IntArray, points: Array) -> None:
-        self._K, self._nodes, self._points = sp.csr_array(K), nodes, points
+    def __init__(self, K: SymmetricBlocks, nodes: IntArray, points: Array) -> None:
+        self._K, self._nodes, self._points = K.whole, nodes, points
         self._none = np.zeros(0, dtype=np.int64)
         self._left = _MAX_ENTRIES
 
-    def under(self, springs: sp.csr_array) -> Callable[[Array], Array]:
-        """A solution x of ``(K + springs) x = b``, as a function of b.
+    def under(self, B: sp.csr_array, springs: PairSprings) -> Callable[[Array], Array]:
+        """A solution x of ``(K + B' S B) x = b``, as a function of b.
 
         Parameters
         ----------
-        springs : (n, n) symmetric, never negative
+        B : (d a, n) motions of the pairs
+        springs : of the pairs, S
 
         Raises
         ------
         SolveFailed
             After a fixed amount of work: what does not converge until then is not worth more.
         """
-        A = sp.csr_array(self._K + springs)
+        A = sp.csr_array(self._K + B.T @ springs.matrix() @ B)
         self._left -= max(A.nnz, _LEAST_COST)
         if self._left < 0:
             raise SolveFailed("multipliers did not settle within the work that they may take", status=Outcome.NOT_FOUND)

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,6 +11,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.iterative._spring_sums import add_springs
+from signorini.iterative.aggregation import CoarsenedMatrix, aggregated
+from signorini.iterative.springs import PairSprings
+from signorini.linalg.symmetric_blocks import SymmetricBlocks
 from signorini.linalg.vcycle import MultigridLevel, VCycle
 
 _COARSEST_BLOCKS = 100  # blocks that are solved for directly
@@ -26,30 +28,31 @@ class SprungLevel:
     Attributes
     ----------
     level : the stiffness with the pattern of all springs, and the way to the next coarser level
-    nodes : (c,) blocks that contacts move, in order
-    own : (k,) blocks of the matrix in their rows
-    keys : (k,) which those are, ascending: row times the number of blocks of the level, and column
+    nodes : (c,) blocks on the diagonal that springs are added to
+    own : (k,) those before the diagonal
     bodies : (k, d, d) what the bodies alone have there
-    down : (d c, e) prolongation to the unknowns of these nodes from those of the next level that they see
+    held : (c, d, d) and on the diagonal
     """
 
     level: MultigridLevel
     nodes: IntArray
     own: IntArray
-    keys: IntArray
     bodies: Array
-    down: sp.csr_array
+    held: Array
 
-    def spring(self, added: sp.csr_array) -> None:
-        """Put springs (d c, d c) between the nodes in place of those before."""
-        A, d = self.level.A, self.level.A.blocksize[0]
-        A.data[self.own] = self.bodies
-        blocks = sp.bsr_array(added, blocksize=(d, d))
-        rows = np.repeat(np.arange(len(self.nodes)), np.diff(blocks.indptr))
-        places = np.searchsorted(self.keys, _keys(self.nodes[rows], self.nodes[blocks.indices], A))
-        np.add.at(A.data, self.own[places], blocks.data)
-        diagonal = self.own[np.searchsorted(self.keys, _keys(self.nodes, self.nodes, A))]
-        self.level.inverses[self.nodes] = np.linalg.pinv(A.data[diagonal], rcond=_FREE_MOTION, hermitian=True)
+    def spring(self, motions: Any, springs: Array) -> None:
+        """Put springs in place of those before.
+
+        Parameters
+        ----------
+        motions : of a pairs, in blocks
+        springs : (a, d, d) of every pair
+        """
+        A = self.level.A
+        A.lower[self.own], A.diagonal[self.nodes] = self.bodies, self.held
+        parts = motions.indptr, motions.indices, motions.data
+        add_springs(parts, springs, (A.indptr, A.indices), A.lower, A.diagonal)
+        self.level.inverses[self.nodes] = _inverses(A.diagonal[self.nodes])
 
 
 class Multigrid:
@@ -61,124 +64,90 @@ class Multigrid:
 
     Parameters
     ----------
-    K : (n, n) stiffness in blocks of a node
+    K : (n, n) stiffness
     near_null : (n, k) motions that hardly need a force: rigid ones
-    B : (m, n) motions of the pairs between which there may be springs
-
-    References
-    ----------
-    Vanek, Mandel, Brezina (1996), Algebraic multigrid by smoothed aggregation, Computing 56:179-196.
+    B : (d a, n) motions of all pairs between which there may be springs, direction by direction
     """
 
-    def __init__(self, K: sp.bsr_array, near_null: Array, B: sp.csr_array) -> None:
+    def __init__(self, K: SymmetricBlocks, near_null: Array, B: sp.csr_array) -> None:
         self._K, self._near_null, self._B = K, near_null, B
+        self._seen: tuple[sp.csr_array, list[Any]] | None = None
 
-    def under(self, springs: sp.csr_array) -> VCycle:
-        """The cycle for the bodies and springs (n, n) between them; it serves until there are others.
+    def under(self, B: sp.csr_array, springs: PairSprings) -> VCycle:
+        """The cycle for the bodies and springs between them; it serves until there are others.
 
         Parameters
         ----------
-        springs : ``B' S B``, symmetric, never negative
+        B : motions of the pairs, all or some of them
+        springs : of these pairs
         """
-        sprung, seen = self._sprung
-        added = sp.csr_array(springs[self._moved][:, self._moved])
-        for each in sprung:
-            each.spring(added)
-            added = sp.csr_array(each.down.T @ added @ each.down)
-        whole = self._levels[-1].A.toarray()
-        whole[np.ix_(seen, seen)] += added.toarray()
+        each, (sprung, coarsest) = springs.each, self._made
+        *moved, last = self._motions(B)
+        for level, motions in zip(sprung, moved, strict=True):
+            level.spring(motions, each)
+        count = np.arange(len(each) + 1)
+        pairs = sp.bsr_array((each, count[:-1], count), shape=(last.shape[0], last.shape[0]))
+        whole = coarsest + (last.T @ (pairs @ last)).toarray()
         inverse = np.linalg.pinv(whole, rcond=_FREE_MOTION, hermitian=True)
-        return VCycle(levels=tuple(each.level for each in sprung), coarsest=lambda b: np.asarray(inverse @ b))
+        return VCycle(levels=tuple(level.level for level in sprung), coarsest=lambda b: np.asarray(inverse @ b))
+
+    def _motions(self, B: sp.csr_array) -> list[Any]:
+        """Motions of the pairs in terms of the unknowns of every level, the finest first, in blocks of a pair."""
+        if self._seen is None or self._seen[0] is not B:
+            self._seen = B, _on_levels(B, self._K.size, [each.level.P for each in self._made[0]])
+        return self._seen[1]
 
     @cached_property
-    def _moved(self) -> IntArray:
-        """Unknowns of the nodes that contacts move."""
-        return _unknowns(np.unique(self._B.indices // self._K.blocksize[0]), self._K.blocksize[0])
-
-    @cached_property
-    def _levels(self) -> list[Any]:
-        """Levels of the bodies alone, the finest first."""
-        import pyamg  # takes longer to load than most models to solve directly
-
-        with _repeatable():
-            made = pyamg.smoothed_aggregation_solver(
-                sp.bsr_matrix(self._K),
-                B=self._near_null,
-                strength=("symmetric", {"theta": 0.0}),
-                improve_candidates=None,
-                max_coarse=_COARSEST_BLOCKS,
-            )
-        return list(made.levels)
-
-    @cached_property
-    def _sprung(self) -> tuple[list[SprungLevel], IntArray]:
-        """All levels but the coarsest, and the unknowns of that one which contacts move."""
-        made, moved = [], self._moved
-        motions = abs(self._B[:, moved])
-        for level in self._levels[:-1]:
-            each, moved = _sprung(level, moved, sp.csr_array(motions.T @ motions))
-            motions = sp.csr_array(motions @ abs(each.down))
-            made.append(each)
-        return made, moved
+    def _made(self) -> tuple[list[SprungLevel], Array]:
+        """Levels with room for springs but the coarsest, the finest first; and the coarsest of the bodies alone."""
+        levels, coarsest = aggregated(self._K, self._near_null, _COARSEST_BLOCKS)
+        motions = _on_levels(self._B, self._K.size, [each.P for each in levels])
+        made = [_sprung(level, moved) for level, moved in zip(levels, motions[:-1], strict=True)]
+        return made, coarsest.whole.toarray()
 
 
-def _sprung(level: Any, moved: IntArray, pattern: sp.csr_array) -> tuple[SprungLevel, IntArray]:
-    """A level of multigrid and the unknowns of the next one that contacts move.
+def _on_levels(B: sp.csr_array, d: int, prolongations: list[Any]) -> list[Any]:
+    """Motions of the pairs, (d a, n), in terms of the unknowns of every level, in blocks, pair by pair."""
+    a = B.shape[0] // d
+    rows = (np.arange(a)[:, None] + a * np.arange(d)).ravel()
+    motions = [sp.bsr_array(sp.csr_array(B[rows]), blocksize=(d, d))]
+    for P in prolongations:
+        motions.append(sp.bsr_array(motions[-1] @ P))
+    return motions
+
+
+def _sprung(level: CoarsenedMatrix, motions: Any) -> SprungLevel:
+    """A level with room for springs between all nodes that a pair moves.
 
     Parameters
     ----------
     level : of the bodies alone
-    moved : (d c,) unknowns of its own that contacts move, whole blocks
-    pattern : (d c, d c) where springs may be between them
+    motions : of the pairs, in blocks
     """
-    from pyamg.util.utils import get_block_diag
-
-    d = level.A.blocksize[0]
-    nodes, whole = moved[::d] // d, level.A.sorted_indices()
-    rows = _rows_of(whole, nodes)
-    keys, bodies = _keys(np.repeat(nodes, np.diff(whole.indptr)[nodes]), whole.indices[rows], whole), whole.data[rows]
-    springs = sp.coo_array(sp.bsr_array(pattern, blocksize=(d, d)).tocsr())
-    far = sp.csr_matrix((np.ones(springs.nnz), (moved[springs.row], moved[springs.col])), shape=whole.shape)
-    both = sp.bsr_matrix(whole + far.tobsr(blocksize=(d, d)))
+    A, m = level.A, len(level.A.diagonal)
+    ones, count = np.ones(len(motions.indices)), len(motions.indptr) - 1
+    seen = sp.csr_array((ones, motions.indices, motions.indptr), shape=(count, m))
+    nodes = np.unique(motions.indices)
+    far = float(len(A.indices) + 1)
+    between = sp.csr_array(sp.tril(seen.T @ seen, -1))
+    between.data[:] = far
+    number = sp.csr_array((np.arange(1.0, far), A.indices, A.indptr), shape=(m, m))
+    both = sp.csr_array(number + between)  # numbers of blocks of A, from 1 on, and where springs may be
     both.sort_indices()
-    own = _rows_of(both, nodes)
-    all_keys = _keys(np.repeat(nodes, np.diff(both.indptr)[nodes]), both.indices[own], both)
-    both.data[own] = 0.0
-    both.data[own[np.searchsorted(all_keys, keys)]] = bodies
-    down = sp.csr_array(level.P.tocsr()[moved])
-    seen = _unknowns(np.unique(down.indices // level.P.blocksize[1]), level.P.blocksize[1])
-    inverses = get_block_diag(both, d, inv_flag=True)
-    made = SprungLevel(
-        level=MultigridLevel(A=both, P=level.P, R=level.P.T.tobsr(), inverses=inverses),
+    lower = np.zeros((both.nnz, A.size, A.size))
+    lower[both.data % far > 0.0] = A.lower
+    own = np.flatnonzero(both.data >= far)
+    indptr, indices = (each.astype(np.int32, copy=False) for each in (both.indptr, both.indices))
+    made = SymmetricBlocks(indptr=indptr, indices=indices, lower=lower, diagonal=A.diagonal.copy())
+    return SprungLevel(
+        level=MultigridLevel(A=made, P=level.P, inverses=_inverses(A.diagonal)),
         nodes=nodes,
         own=own,
-        keys=all_keys,
-        bodies=both.data[own],
-        down=sp.csr_array(down[:, seen]),
+        bodies=lower[own],
+        held=A.diagonal[nodes],
     )
-    return made, seen
 
 
-def _unknowns(nodes: IntArray, d: int) -> IntArray:
-    return (d * nodes[:, None] + np.arange(d)).ravel()
-
-
-def _rows_of(A: Any, nodes: IntArray) -> IntArray:
-    """Numbers of the blocks in rows of blocks."""
-    counts = np.diff(A.indptr)[nodes]
-    return np.repeat(A.indptr[nodes] - np.cumsum(counts) + counts, counts) + np.arange(counts.sum())
-
-
-def _keys(rows: IntArray, columns: IntArray, A: Any) -> IntArray:
-    return rows.astype(np.int64) * (A.shape[0] // A.blocksize[0]) + columns
-
-
-@contextmanager
-def _repeatable() -> Iterator[None]:
-    """PyAMG starts from vectors of NumPy's global generator: the same ones every time, and it is put back."""
-    before = np.random.get_state()  # noqa: NPY002
-    np.random.seed(0)  # noqa: NPY002
-    try:
-        yield
-    finally:
-        np.random.set_state(before)  # noqa: NPY002
+def _inverses(blocks: Array) -> Array:
+    """(m, d, d) Of symmetric blocks, of motions that something resists."""
+    return np.asarray(np.linalg.pinv(blocks, rcond=_FREE_MOTION, hermitian=True), dtype=np.float64)

@@ -55,6 +55,15 @@ class PairSprings:
         across = (self.tangent * moved[1:]).sum(axis=1)
         return np.concatenate([(self.normal * moved[0])[None], across])
 
+    @property
+    def each(self) -> Array:
+        """(a, d, d) Forces of motions of every pair."""
+        d = len(self.tangent) + 1
+        made = np.zeros((len(self.normal), d, d))
+        made[:, 0, 0] = self.normal
+        made[:, 1:, 1:] = self.tangent.transpose(2, 0, 1)
+        return made
+
     def matrix(self) -> sp.csr_array:
         """(d a, d a) Forces of motions."""
         rows = [[sp.diags_array(block) for block in line] for line in self.tangent]

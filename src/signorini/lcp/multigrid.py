@@ -199,13 +199,13 @@ def hierarchy(A: Any) -> Hierarchy:
 
 def _assembled(matrices: list[Any], prolongations: list[Any]) -> Hierarchy:
     """Matrices and prolongations with their V-cycle."""
-    from signorini.linalg.vcycle import MultigridLevel, VCycle  # Numba takes longer than most problems
+    from signorini.linalg.symmetric_blocks import SymmetricBlocks  # Numba takes longer than most problems
+    from signorini.linalg.vcycle import MultigridLevel, VCycle
 
     levels = tuple(
         MultigridLevel(
-            A=sp.bsr_array((A.data[:, None, None], A.indices, A.indptr), shape=A.shape),
-            P=P,
-            R=P.T.tocsr(),
+            A=SymmetricBlocks.of(_single(A)),
+            P=_single(P),
             inverses=_inverted(A.diagonal())[:, None, None],
         )
         for A, P in zip(matrices[:-1], prolongations, strict=True)
@@ -214,6 +214,11 @@ def _assembled(matrices: list[Any], prolongations: list[Any]) -> Hierarchy:
     coarsest = factorised(matrices[-1].tocsc()) or (lambda r: diagonal * r)
     cycle = VCycle(levels=levels, coarsest=coarsest)
     return Hierarchy(matrices=tuple(matrices), prolongations=tuple(prolongations), cycle=cycle)
+
+
+def _single(rows: Any) -> Any:
+    """A matrix in blocks of one entry."""
+    return sp.bsr_array((rows.data[:, None, None], rows.indices, rows.indptr), shape=rows.shape)
 
 
 def _prolongation(A: Any) -> Any:

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compiled sweeps of Gauss-Seidel by blocks, each of which reads a symmetric matrix once or only half of it.
+"""Compiled loops over symmetric matrices in blocks, each of which reads the lower half once; and over prolongations.
 
-Matrices are in rows of blocks, columns sorted: row i has the blocks ``data[indptr[i]:indptr[i + 1]]``, (d, d) each, in
-the columns ``indices[...]``. A tuple of d items tells the compiler how long the inner loops are.
+Row i has the blocks ``lower[indptr[i]:indptr[i + 1]]``, (d, d) each, in the columns ``indices[...]`` before i, and
+``diagonal[i]``. What a row has beyond its diagonal is what later rows have before theirs, transposed. A tuple of d
+items tells the compiler how long the inner loops are; the blocks of nodes in space, d = 3, are written out, so that
+sums stay in registers.
 """
 
 from __future__ import annotations
@@ -10,80 +12,181 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array, Int32Array
-from signorini.compilation import kernel
+from signorini.compilation import kernel, part
+
+_FREE_SUMS = {"contract", "reassoc", "nsz"}  # of the compiler: for sums that may be formed in any order
 
 
-@kernel()
-def sweep_from_zero(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, inverses: Array, b: Array
-) -> tuple[Array, Array]:
-    """A forward sweep from zero over ``A x = b``: x and the residual ``b - A x``, both (m, d).
-
-    What is left below the diagonal is what is not solved for yet, so that the residual is made of the upper half alone.
-
-    Parameters
-    ----------
-    block : d items
-    indptr, indices, data : A
-    inverses : (m, d, d) of the blocks on its diagonal
-    b : (m, d)
-    """
+@part(fastmath=_FREE_SUMS)
+def _taken(
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, i: int, x: Array, left: Array
+) -> None:
+    """Take from left, (d,), what row i has before its diagonal, times x."""
     d = len(block)
-    x, residual = np.zeros_like(b), np.zeros_like(b)
-    left = np.empty(d)
-    for i in range(len(b)):
-        for p in range(d):
-            left[p] = b[i, p]
-        end = indptr[i]
-        while indices[end] < i:
-            j = indices[end]
-            for p in range(d):
-                total = 0.0
-                for q in range(d):
-                    total += data[end, p, q] * x[j, q]
-                left[p] -= total
-            end += 1
-        for p in range(d):
-            total = 0.0
-            for q in range(d):
-                total += inverses[i, p, q] * left[q]
-            x[i, p] = total
-        for k in range(indptr[i], end):
+    if d == 3:
+        one, two, three = left[0], left[1], left[2]
+        for k in range(indptr[i], indptr[i + 1]):
+            j = indices[k]
+            u, v, w = x[j, 0], x[j, 1], x[j, 2]
+            one -= lower[k, 0, 0] * u + lower[k, 0, 1] * v + lower[k, 0, 2] * w
+            two -= lower[k, 1, 0] * u + lower[k, 1, 1] * v + lower[k, 1, 2] * w
+            three -= lower[k, 2, 0] * u + lower[k, 2, 1] * v + lower[k, 2, 2] * w
+        left[0], left[1], left[2] = one, two, three
+    else:
+        for k in range(indptr[i], indptr[i + 1]):
             j = indices[k]
             for p in range(d):
                 total = 0.0
                 for q in range(d):
-                    total += data[k, q, p] * x[i, q]
-                residual[j, p] -= total
+                    total += lower[k, p, q] * x[j, q]
+                left[p] -= total
+
+
+@part(fastmath=_FREE_SUMS)
+def _given(
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, i: int, x: Array, rest: Array
+) -> None:
+    """Take from rest, (m, d), what the rows before i have in the column of i, times x[i]."""
+    d = len(block)
+    if d == 3:
+        u, v, w = x[i, 0], x[i, 1], x[i, 2]
+        for k in range(indptr[i], indptr[i + 1]):
+            j = indices[k]
+            rest[j, 0] -= lower[k, 0, 0] * u + lower[k, 1, 0] * v + lower[k, 2, 0] * w
+            rest[j, 1] -= lower[k, 0, 1] * u + lower[k, 1, 1] * v + lower[k, 2, 1] * w
+            rest[j, 2] -= lower[k, 0, 2] * u + lower[k, 1, 2] * v + lower[k, 2, 2] * w
+    else:
+        for k in range(indptr[i], indptr[i + 1]):
+            j = indices[k]
+            for q in range(d):
+                total = 0.0
+                for p in range(d):
+                    total += lower[k, p, q] * x[i, p]
+                rest[j, q] -= total
+
+
+@part(fastmath=_FREE_SUMS)
+def _times(block: tuple[int, ...], matrix: Array, given: Array, result: Array) -> None:
+    """Put a block times (d,) into result, (d,)."""
+    for p in range(len(block)):
+        total = 0.0
+        for q in range(len(block)):
+            total += matrix[p, q] * given[q]
+        result[p] = total
+
+
+@kernel(fastmath=_FREE_SUMS)
+def product(
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, diagonal: Array, x: Array
+) -> Array:
+    """``A x``, (m, d).
+
+    Parameters
+    ----------
+    block : d items
+    indptr, indices, lower, diagonal : A
+    x : (m, d)
+    """
+    rest = np.zeros_like(x)
+    left = np.empty(len(block))
+    for i in range(len(x)):
+        for p in range(len(block)):
+            left[p] = 0.0
+        _taken(block, indptr, indices, lower, i, x, left)
+        _given(block, indptr, indices, lower, i, x, rest)
+        for p in range(len(block)):
+            total = 0.0
+            for q in range(len(block)):
+                total += diagonal[i, p, q] * x[i, q]
+            rest[i, p] += left[p] - total
+    return -rest
+
+
+@kernel(fastmath=_FREE_SUMS)
+def sweep_from_zero(
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, inverses: Array, b: Array
+) -> tuple[Array, Array]:
+    """A forward sweep of Gauss-Seidel from zero over ``A x = b``: x and the residual ``b - A x``, both (m, d).
+
+    What is left before the diagonal is what is not solved for yet, so that the residual is made of the other half.
+
+    Parameters
+    ----------
+    block : d items
+    indptr, indices, lower : A
+    inverses : (m, d, d) of the blocks on its diagonal
+    b : (m, d)
+    """
+    x, residual = np.empty_like(b), np.zeros_like(b)
+    left = np.empty(len(block))
+    for i in range(len(b)):
+        for p in range(len(block)):
+            left[p] = b[i, p]
+        _taken(block, indptr, indices, lower, i, x, left)
+        _times(block, inverses[i], left, x[i])
+        _given(block, indptr, indices, lower, i, x, residual)
     return x, residual
 
 
-@kernel()
+@kernel(fastmath=_FREE_SUMS)
 def sweep_back(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, inverses: Array, b: Array, x: Array
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, inverses: Array, b: Array, x: Array
 ) -> None:
     """A backward sweep over ``A x = b`` in place.
 
     Parameters
     ----------
-    block, indptr, indices, data, inverses, b : see `sweep_from_zero`
+    block, indptr, indices, lower, inverses, b : see `sweep_from_zero`
     x : (m, d)
     """
-    d = len(block)
-    left = np.empty(d)
+    rest = b.copy()
+    left = np.empty(len(block))
     for i in range(len(b) - 1, -1, -1):
-        for p in range(d):
-            left[p] = b[i, p]
+        for p in range(len(block)):
+            left[p] = rest[i, p]
+        _taken(block, indptr, indices, lower, i, x, left)
+        _times(block, inverses[i], left, x[i])
+        _given(block, indptr, indices, lower, i, x, rest)
+
+
+@kernel(fastmath=_FREE_SUMS)
+def prolong(
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, coarse: Array, x: Array
+) -> None:
+    """Add ``P coarse`` to x, (m, d).
+
+    Parameters
+    ----------
+    block : d items
+    indptr, indices, data : P, in blocks (d, e)
+    coarse : (k, e)
+    """
+    for i in range(len(x)):
         for k in range(indptr[i], indptr[i + 1]):
             j = indices[k]
-            if j != i:
-                for p in range(d):
-                    total = 0.0
-                    for q in range(d):
-                        total += data[k, p, q] * x[j, q]
-                    left[p] -= total
-        for p in range(d):
-            total = 0.0
-            for q in range(d):
-                total += inverses[i, p, q] * left[q]
-            x[i, p] = total
+            for p in range(len(block)):
+                total = 0.0
+                for q in range(coarse.shape[1]):
+                    total += data[k, p, q] * coarse[j, q]
+                x[i, p] += total
+
+
+@kernel(fastmath=_FREE_SUMS)
+def restrict(
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, fine: Array, coarse: Array
+) -> None:
+    """Add ``P' fine`` to coarse, (k, e).
+
+    Parameters
+    ----------
+    block, indptr, indices, data : see `prolong`
+    fine : (m, d)
+    """
+    for i in range(len(fine)):
+        for k in range(indptr[i], indptr[i + 1]):
+            j = indices[k]
+            for q in range(coarse.shape[1]):
+                total = 0.0
+                for p in range(len(block)):
+                    total += data[k, p, q] * fine[i, p]
+                coarse[j, q] += total

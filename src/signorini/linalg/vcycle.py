@@ -7,8 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from signorini.arrays import Array
-from signorini.linalg._sweeps import sweep_back, sweep_from_zero
+from signorini.linalg._sweeps import prolong, restrict, sweep_back, sweep_from_zero
+from signorini.linalg.symmetric_blocks import SymmetricBlocks
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -17,14 +20,13 @@ class MultigridLevel:
 
     Attributes
     ----------
-    A : (m, m) in blocks (BSR), columns sorted
-    P, R : (m, k) and (k, m), from the next level and to it
+    A : (m, m), in blocks (d, d)
+    P : (m, k) from the next level, in blocks (BSR); its transpose leads there
     inverses : (m / d, d, d) of the blocks on the diagonal of A
     """
 
-    A: Any
+    A: SymmetricBlocks
     P: Any
-    R: Any
     inverses: Array
 
 
@@ -49,10 +51,12 @@ class VCycle:
         if depth == len(self.levels):
             return self.coarsest(b)
         level = self.levels[depth]
-        A, d = level.A, level.A.blocksize[0]
-        matrix = d * (0,), A.indptr, A.indices, A.data, level.inverses
-        blocks, left = sweep_from_zero(*matrix, b.reshape(-1, d))
-        x: Array = blocks.ravel()
-        x += level.P @ self._descend(depth + 1, level.R @ left.ravel())
-        sweep_back(*matrix, b.reshape(-1, d), x.reshape(-1, d))
-        return x
+        A, P, e = level.A, level.P, level.P.blocksize[1]
+        block, given = A.size * (0,), b.reshape(-1, A.size)
+        x, left = sweep_from_zero(block, A.indptr, A.indices, A.lower, level.inverses, given)
+        coarse = np.zeros((P.shape[1] // e, e))
+        restrict(block, P.indptr, P.indices, P.data, left, coarse)
+        found = self._descend(depth + 1, coarse.ravel())
+        prolong(block, P.indptr, P.indices, P.data, found.reshape(-1, e), x)
+        sweep_back(block, A.indptr, A.indices, A.lower, level.inverses, given, x)
+        return x.ravel()
