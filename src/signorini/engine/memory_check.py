@@ -27,9 +27,11 @@ from signorini.memory import available_memory
 from signorini.model.model import Model
 
 # measured on cubes of 13 000 to 1 000 000 unknowns and cylinders in the plane (benchmarks/memory.py), the least of each
-_LEAST_OF_SOLVE = 60.0  # bytes an entry of K, all in all: in space iterating, which takes less than any factor
+_LEAST_OF_SOLVE = 32.0  # bytes an entry of K, all in all: in space iterating, which takes less than any factor
 _BORDER = 24.0  # bytes an entry of K: K with a border of the pairs, its graph and order, beside the factor
-_ITERATION = 44.0  # bytes an entry of K more, for its blocks, the coarse grids and vectors
+_BORDERED = 1.25  # times the factor of K with its contact nodes kept: at most that of K with a border
+_ITERATION = 18.0  # bytes an entry of K more, for its blocks, the coarse grids and vectors
+_ITERATION_ON_TANGENTS = 44.0  # where bodies yield
 _TANGENTS = (
     90.0  # bytes an entry of K more where bodies yield, for patterns of tangents, gradients and states of points
 )
@@ -42,6 +44,7 @@ _SHARED_ELSE = 0.39
 _GENEROUS = 300.0, 1.0, 60.0, 4.0 / 3.0  # entries of the factor: at most 300 z in the plane, 60 z^(4/3) in space
 _GENEROUS_WORK = 40.0  # operations of a factorisation in space: at most 40 z^2
 _SQUARE = 3, 4  # dense matrices of the size of the contact dofs, and of that of the pairs' rows, held at once
+_SQUARE_OF_PAIRS = 3  # of the pairs' rows where pairs are kept: as the law takes it, its factor, two of half as many bytes
 _WAYS_OUT = "a coarser mesh, more memory, or the ranks of more machines (back end 'petsc')"
 _SHARE = 0.5  # of the memory that there is: what displacements that are asked for may fill
 
@@ -109,7 +112,8 @@ def way_through(
     if not K.nnz:  # nothing deforms, so there is nothing to iterate on
         return CONDENSED
     times, more = (_KEPT_TWICE, _TANGENTS * K.nnz) if yields else (1.0, 0.0)
-    room, iterated = available_memory(), times * _ITERATION * K.nnz + more
+    own = _ITERATION_ON_TANGENTS if yields else _ITERATION
+    room, iterated = available_memory(), times * own * K.nnz + more
     if backend == ITERATIVE and len(bodies.kept):
         raise InputError("back end 'iterative' does not know contacts that slide far; expected another, or small slips")
     if backend == ITERATIVE:
@@ -149,16 +153,21 @@ def condensing(
     chosen = interface.rows(candidates | interface.tied)
     dofs = np.unique(np.concatenate([B[np.flatnonzero(chosen)].indices, bodies.kept]))
     rows = int(np.count_nonzero(chosen))
-    dense, border = _SQUARE[1] * rows**2, _BORDER * K.nnz
-    if interface.directions == 2 or interface.tied.any() or not takes_borders("auto"):
-        dense, border = dense + _SQUARE[0] * len(dofs) ** 2, 0.0  # contact nodes are kept; else pairs, in a border
+    by_nodes = interface.directions == 2 or interface.tied.any() or not takes_borders("auto")
+    if by_nodes:  # contact nodes are kept; else pairs, in a border
+        dense, border = _SQUARE[1] * rows**2 + _SQUARE[0] * len(dofs) ** 2, 0.0
+    else:
+        dense, border = _SQUARE_OF_PAIRS * rows**2, _BORDER * K.nnz
     factor, power = _GENEROUS[:2] if interface.directions == 2 else _GENEROUS[2:]
     bound = Condensing(8.0 * (factor * K.shape[0] ** power + dense) + border, _GENEROUS_WORK * K.shape[0] ** 2.0, rows)
     if bound.bytes <= plenty and (dear == np.inf or condensing_work(bound, K.nnz) <= dear):
         return bound
     plan = analyse(checked_system(K, dofs, nodes, points))
-    fronts = plan.peak_bytes if not border else plan.peak_bytes - 8.0 * (len(dofs) ** 2 - rows**2)  # left: of the pairs
-    return Condensing(max(fronts, 8.0 * (plan.nnz_factor + dense)) + border, plan.flops, rows)
+    if by_nodes:
+        return Condensing(max(plan.peak_bytes, 8.0 * (plan.nnz_factor + dense)), plan.flops, rows)
+    stacks = sum(plan.stacks) + rows**2  # given back before the dense matrices are made
+    factor = _BORDERED * (plan.peak_bytes - 8.0 * (sum(plan.stacks) + len(dofs) ** 2))
+    return Condensing(factor + 8.0 * max(stacks, dense) + border, plan.flops, rows)
 
 
 def _size(number: float) -> str:
