@@ -22,9 +22,9 @@ from signorini.solution.checkpoint import Checkpoint
 # fits to what benchmarks/ways.py measures, 12 000 to 300 000 unknowns; products with K are those of one thread
 _ENTRY = 25.0  # operations of a factorisation in the time of an entry of K in a product: 10 to 30, by the machine
 _FRONTS = 360.0  # products with K in the time of what a factorisation does beside them: order, plan, gathering fronts
-_START = 5e9  # operations: what iterating takes whatever there is
-_GRIDS = 220.0  # products with K in the time of making the coarse grids
-_CYCLE = 5.6  # products with K in the time of an iteration, a cycle of multigrid included
+_START = 3e9  # operations: what iterating takes whatever there is
+_GRIDS = 130.0  # products with K in the time of making the coarse grids
+_CYCLE = 3.2  # products with K in the time of an iteration, a cycle of multigrid included
 _FIRST, _EACH = 18.0, 20.0  # iterations at the beginning, and of every increment: the first one takes 27 to 54
 _DENSE = 0.55  # operations of what is made of the compliance of the pairs, of its rows cubed
 _LAW_ROWS = 700.0  # operations of Newton's method an increment, of the rows of the pairs squared
@@ -100,7 +100,7 @@ def cheaper_way(condensing: Condensing, entries: int, increments: float) -> Cont
 
     >>> large, small = Condensing(2e9, 1.8e11, 2028), Condensing(1e8, 2e9, 507)
     >>> [round(cheaper_way(large, 7_800_000, number).worth) for number in (1, 100)]
-    [12, 0]
+    [31, 0]
     >>> cheaper_way(small, 820_000, 1).worth
     0.0
     """
