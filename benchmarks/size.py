@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Large contacts in space, condensed and iterated: growth with unknowns and with pairs; tables of docs/performance.md.
 
-python -m benchmarks.size [unknowns] [pairs] [--small] [--dry] [--kept FILE]
+python -m benchmarks.size [unknowns] [pairs] [--small] [--most N] [--dry] [--kept FILE]
 
 CPU seconds, one thread, of everything from the model to the certified solution; code warm, every run in a process of
 its own. What is measured is added to a file, a line each, and not measured again: so the tables can be made
@@ -182,9 +182,9 @@ def table(cases: list[tuple[str, str, int]], key: str, kept: Path | None) -> str
     return "\n\n".join([page.table(HEAD, lines), growth([(way, each) for _, way, each in found], key), words])
 
 
-def unknowns(small: bool, kept: Path | None) -> str:
-    """Cubes that do not match, condensed and iterated."""
-    sizes = SMALL_SIZES if small else SIZES
+def unknowns(small: bool, kept: Path | None, most: int) -> str:
+    """Cubes that do not match, condensed and iterated, up to so many unknowns."""
+    sizes = [size for size in (SMALL_SIZES if small else SIZES) if size <= most]
     cases = [
         ("cubes, not matching", way, dofs)
         for way in WAYS
@@ -194,7 +194,7 @@ def unknowns(small: bool, kept: Path | None) -> str:
     return table(cases, "unknowns", kept)
 
 
-def pairs(small: bool, kept: Path | None) -> str:
+def pairs(small: bool, kept: Path | None, _: int) -> str:
     """Columns of a fixed number of unknowns, ever wider."""
     sides, dofs = (SMALL_SIDES, SMALL_FIXED) if small else (SIDES, FIXED)
     cases = [(str(side), way, dofs) for way in WAYS for side in sides]
@@ -206,6 +206,7 @@ def main() -> None:
     parser.add_argument("tables", nargs="*", help="unknowns, pairs")
     parser.add_argument("--small", action="store_true", help="sizes that take seconds")
     parser.add_argument("--kept", type=Path, help="what was measured before, and is added to")
+    parser.add_argument("--most", type=int, default=10**9, help="unknowns of the largest case")
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
@@ -213,7 +214,7 @@ def main() -> None:
         print(json.dumps([measure(problem, way, int(dofs))]))
         return
     for name in options.tables or ("unknowns", "pairs"):
-        text = {"unknowns": unknowns, "pairs": pairs}[name](options.small, options.kept)
+        text = {"unknowns": unknowns, "pairs": pairs}[name](options.small, options.kept, options.most)
         command.publish(options, f"size, {name}", text)
 
 

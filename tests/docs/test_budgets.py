@@ -21,6 +21,7 @@ ROOMS = ("friction", "engine", "iterative")
 NOT_SEARCHES = {
     "engine.validity_notes._PAIRS_ACROSS",  # layers of pairs that are counted
     "friction.history.space.no_rates_proof._TANGENTS",  # of a circle
+    "iterative.aggregation._EIGENVALUE_STEPS",  # of an estimate, which a preconditioner is damped by
     "friction.space.sweeps._LOCAL_STEPS",  # of the fixed point of one pair, in a sweep whose residual is measured
 }
 

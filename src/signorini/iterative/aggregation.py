@@ -44,11 +44,12 @@ def aggregated(
     ----------
     Vanek, Mandel, Brezina (1996), Algebraic multigrid by smoothed aggregation, Computing 56:179-196.
     """
-    levels = []
-    while len(A.diagonal) > coarsest:
+    levels, blocks = [], len(A.diagonal)
+    while blocks > coarsest:
         P, near_null = _prolongation(A, near_null)
         levels.append(CoarsenedMatrix(A, P))
         A = _coarser(A, P)
+        blocks = len(A.diagonal)
     return tuple(levels), A
 
 
