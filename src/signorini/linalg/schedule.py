@@ -98,8 +98,8 @@ class _Tasks:
             both = 2.0 * width * first + width**2
             return height * both if begin != first else width * (width * first + width**2 / 3)
         if kind == "leave":
-            k = self._fronts.unknown[self._fronts.first[t + 1]] - self._fronts.unknown[self._fronts.first[t]]
-            return float(width * height * k * (2 if begin != first else 1))
+            k = int(self._fronts.unknown[self._fronts.first[t + 1]] - self._fronts.unknown[self._fronts.first[t]])
+            return float(int(width) * int(height) * k * (2 if begin != first else 1))
         return 0.0
 
     def _hand_on(self, fronts: Iterable[int], task: int) -> None:
