@@ -19,7 +19,7 @@ from signorini.engine.examine import Examined
 from signorini.model.stage import Stage
 from signorini.solution.checkpoint import Checkpoint
 
-# fits to what benchmarks/ways.py measures, 12 000 to 300 000 unknowns; products with K are those of one thread
+# fits to what benchmarks/ways.py measures, 12 000 to 140 000 unknowns; products with K are those of one thread
 _ENTRY = 25.0  # operations of a factorisation in the time of an entry of K in a product: 10 to 30, by the machine
 _FRONTS = 360.0  # products with K in the time of what a factorisation does beside them: order, plan, gathering fronts
 _START = 3e9  # operations: what iterating takes whatever there is
@@ -96,12 +96,12 @@ def cheaper_way(condensing: Condensing, entries: int, increments: float) -> Cont
 
     Examples
     --------
-    Two cubes of 101 400 unknowns with 676 pairs, and of a tenth; one increment, and many:
+    Two cubes of 101 400 unknowns with 676 pairs, and of 4374; one increment, and many:
 
-    >>> large, small = Condensing(2e9, 1.8e11, 2028), Condensing(1e8, 2e9, 507)
+    >>> large, small = Condensing(2e9, 1.8e11, 2028), Condensing(4e7, 3e8, 243)
     >>> [round(cheaper_way(large, 7_800_000, number).worth) for number in (1, 100)]
     [31, 0]
-    >>> cheaper_way(small, 820_000, 1).worth
+    >>> cheaper_way(small, 280_000, 1).worth
     0.0
     """
     own = condensing_work(condensing, entries)
