@@ -32,7 +32,7 @@ from signorini.engine.prepare import Prepared
 from signorini.fem.kinematics import straining_groups
 from signorini.fem.node_work import Products, add_node_work
 
-_FEW = 3  # points of a history whose adjoint displacements are found one by one
+_SUBSTITUTED_POINTS = 3  # points of a history at most: adjoint displacements are found one by one of so many
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -109,7 +109,7 @@ class BodyChange:
             many = ContactSums.knows(points[own[0]].system, len(own))
             found_at_once = self._by_sums(points, own, adjoint) if many else None
             if found_at_once is None:
-                few = len(own) <= _FEW and self._by_cells
+                few = len(own) <= _SUBSTITUTED_POINTS and self._by_cells
                 found_at_once = (self._by_combinations if few else self._by_states)(points, own, adjoint)
             found += found_at_once
         return found

@@ -44,7 +44,7 @@ _SHARED_ELSE = 0.39
 _GENEROUS = 300.0, 1.0, 60.0, 4.0 / 3.0  # entries of the factor: at most 300 z in the plane, 60 z^(4/3) in space
 _GENEROUS_WORK = 40.0  # operations of a factorisation in space: at most 40 z^2
 _SQUARE = 3, 4  # dense matrices of the size of the contact dofs, and of that of the pairs' rows, held at once
-_SQUARE_OF_PAIRS = 3  # of the pairs' rows where pairs are kept: as the law takes it, its factor, two of half as many bytes
+_SQUARE_OF_PAIRS = 3  # of the pairs' rows where pairs are kept: as the law takes it, its factor, two of half the bytes
 _WAYS_OUT = "a coarser mesh, more memory, or the ranks of more machines (back end 'petsc')"
 _SHARE = 0.5  # of the memory that there is: what displacements that are asked for may fill
 

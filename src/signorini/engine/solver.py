@@ -31,7 +31,9 @@ _BALANCED = 1e-10  # of the sizes of the data: what equilibrium may lack before 
 _REFINEMENTS = 2
 _SETTLING = 10  # refinements in all, while rounding that bends slender bodies still changes which pairs touch
 _MOST_ALLOWED = 1e-3  # of the data of the law: what answers that others follow may lack at most
-_ROUNDED = 10.0  # times the tolerance of the law: what rounding may leave where no method ends below that
+_ROUNDED_TOLERANCES = (
+    10.0  # of the tolerance of the law: as many times may rounding leave where no method ends below it
+)
 _LENGTH_PER_GAP = 1e-4  # of the largest gap or displacement: times the law's tolerance, 1e-10, a few roundings of it
 
 
@@ -281,8 +283,10 @@ class CondensedSolver:
         """
         law = replace(self.law, b=b)
         result = solve_contact(law, start, settings=self.settings, allowed=allowed)
-        if result.outcome is Outcome.NOT_FOUND and result.residual <= _ROUNDED * self.settings.tolerance:
-            return solve_contact(law, start, settings=self.settings, allowed=_ROUNDED * self.settings.tolerance)
+        if result.outcome is Outcome.NOT_FOUND and result.residual <= _ROUNDED_TOLERANCES * self.settings.tolerance:
+            return solve_contact(
+                law, start, settings=self.settings, allowed=_ROUNDED_TOLERANCES * self.settings.tolerance
+            )
         return result
 
     def _start(self, increment: Increment) -> Array | IntArray | None:
