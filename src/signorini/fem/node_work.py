@@ -18,6 +18,7 @@ Eshelby (1975), The elastic energy-momentum tensor, Journal of Elasticity 5:321.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -27,7 +28,7 @@ from signorini.compilation import kernel, part
 from signorini.fem._kernels import gradients_at
 from signorini.fem.elasticity import elasticities, law_tensor
 from signorini.fem.kinematics import Group, straining_groups
-from signorini.fem.measure import measure
+from signorini.fem.measure import measure_of_cells
 from signorini.fem.space import Space
 from signorini.fem.stiffness import stiffness
 from signorini.model.model import Model
@@ -81,9 +82,9 @@ def add_node_work(found: Array, space: Space, model: Model, products: Products) 
         if group.formulation != "standard":
             np.add.at(found, group.cells, _by_differences(space, model, group, products))
             continue
-        at = np.einsum("qk,mki->mqi", group.block.values, space.mesh.points[group.cells])
-        weights = measure(model, at, group.numbers) * group.block.weights
-        of_cells = (np.ascontiguousarray(group.cells), group.body, np.ascontiguousarray(weights))
+        places = partial(np.einsum, "qk,mki->mqi", group.block.values, space.mesh.points[group.cells])
+        weights = measure_of_cells(model, places, group.numbers) * group.block.weights
+        of_cells = (np.ascontiguousarray(group.cells), group.body, weights)
         block = (group.block.values, np.ascontiguousarray(group.block.gradients))
         _add(found, space.mesh.points, of_cells, block, (entries, np.ascontiguousarray(values)), products, c, d)
 
