@@ -197,6 +197,21 @@ def test_gaps_node_by_node_add_up_to_an_interference(solved):
         assert -gap.sum() == pytest.approx(together, rel=1e-9, abs=1e-12 * np.abs(gap).max())
 
 
+def test_a_profile_is_the_sum_of_its_products_with_gaps(solved):
+    _, _, derivatives = solved
+    derivative = derivatives["force"]
+    gaps = derivative.gap["joint"]
+    profile = np.cos(np.arange(len(gaps)))
+    assert derivative.profile("joint", profile) == pytest.approx(gaps @ profile, rel=1e-9)
+    assert derivative.profile_sides("joint", profile) == pytest.approx((gaps @ profile,) * 2, rel=1e-9)
+    for wrong, what in (
+        (profile[1:], f"change: has {len(gaps) - 1} components, .* expected a list of {len(gaps)} numbers"),
+        (0.0 * profile, "change: is 0 everywhere; expected a profile that changes some gap"),
+    ):
+        with pytest.raises(sg.InputError, match=what):
+            derivative.profile("joint", wrong)
+
+
 @pytest.mark.parametrize("parameter", ["friction", "interference"])
 def test_forwards_is_backwards(solved, parameter):
     _, solution, derivatives = solved

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, extent
+from signorini.checks import vector
 from signorini.derivative.by_name import ByName
 from signorini.derivative.changes import GapChange
 from signorini.derivative.node_gradient import node_gradient
@@ -182,12 +183,10 @@ class Derivative(DirectionalDerivative):
 
     def _profile(self, contact: str, change: ArrayLike) -> tuple[GapChange, float]:
         """Gaps that grow by a profile, and how much of it is a lot."""
-        own, grows = self._history.view.pairs(contact), np.asarray(change, dtype=np.float64)
-        if grows.shape != (int(own.sum()),) or not grows.any():
-            words = (
-                f"has shape {grows.shape}; expected ({own.sum()},), a number for each node of '{contact}', not all 0"
-            )
-            raise InputError(words, where=("change",))
+        own = self._history.view.pairs(contact)
+        grows = np.array(vector(change, ("change",), dimension=int(own.sum())))
+        if not grows.any():
+            raise InputError("is 0 everywhere; expected a profile that changes some gap", where=("change",))
         gap = np.zeros(len(own))
         gap[own] = grows
         return GapChange(gap=gap), self._length / float(np.abs(grows).max())
