@@ -90,11 +90,11 @@ def test_what_does_not_fit_is_iterated(monkeypatch):
     assert sg.solve(model).backend == "iterative"
     with pytest.raises(sg.InputError, match=r"take about 2 GB to factorise .* and 1 GB .* back end 'iterative', a coa"):
         sg.solve(model, backend="superlu")
-    rooms = iter(2 * [2_000_000, 500_000])  # before the stiffness is made, and behind it
+    rooms = iter(2 * [2_000_000, 100_000])  # before the stiffness is made, and behind it
     monkeypatch.setattr(memory_check, "available_memory", lambda: next(rooms))
     for backend in ("auto", "iterative"):
         with pytest.raises(
-            sg.InputError, match=r"GB to iterate on, and 0.0005 GB of memory are free; expected a coarser"
+            sg.InputError, match=r"GB to iterate on, and 0.0001 GB of memory are free; expected a coarser"
         ):
             sg.solve(model, backend=backend)
     monkeypatch.setattr(memory_check, "available_memory", lambda: 1_000)

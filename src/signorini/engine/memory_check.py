@@ -27,7 +27,7 @@ from signorini.memory import available_memory
 from signorini.model.model import Model
 
 # measured on cubes of 13 000 to 1 000 000 unknowns and cylinders in the plane (benchmarks/memory.py), the least of each
-_LEAST_OF_SOLVE = 32.0  # bytes an entry of K, all in all: in space iterating, which takes less than any factor
+_LEAST_OF_SOLVE = {2: 75.0, 3: 32.0}  # bytes an entry of K, all in all, by dimension: in space iterating takes least
 _BORDER = 24.0  # bytes an entry of K: K with a border of the pairs, its graph and order, beside the factor
 _BORDERED = 1.25  # times the factor of K with its contact nodes kept: at most that of K with a border
 _ITERATION = 18.0  # bytes an entry of K more, for its blocks, the coarse grids and vectors
@@ -69,7 +69,7 @@ def least_bytes(model: Model) -> float:
     ----------
     model : which is not assembled yet
     """
-    return _LEAST_OF_SOLVE * likely_entries(model)
+    return _LEAST_OF_SOLVE[model.dimension] * likely_entries(model)
 
 
 def refuse_unassembled(model: Model) -> None:
