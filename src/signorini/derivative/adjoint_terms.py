@@ -106,6 +106,7 @@ class Adjoint:
     remembered : (d - 1, n) per length, with tangential motions that are remembered before the first point
     behind : (d - 1, n) the same behind some points, by number
     weights : how the output changes with motions and forces directly, by number of the point
+    by_places : (nodes, d) by numbers of points, how the output changes with places of nodes by stresses there, kept
     pulled : (z,) by number of the point, of outputs of bodies: free displacements where what the output changes with
         pulls on them
     """
@@ -115,6 +116,7 @@ class Adjoint:
     remembered: Array
     behind: dict[int, Array] = field(default_factory=dict)
     weights: dict[int, Weights] = field(default_factory=dict)
+    by_places: dict[tuple[int, ...], Array] = field(default_factory=dict)
     pulled: dict[int, Array] = field(default_factory=dict)
 
     @cached_property

@@ -12,7 +12,7 @@ where bodies are condensed onto contact nodes that is found without h', from sum
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -116,7 +116,7 @@ class BodyChange:
 
     def _by_combinations(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:
         """What it changes through a few points of the same bodies, by adjoint and actual displacements."""
-        found = 0.0
+        found, products = 0.0, list[Products]()
         for columns in combinations_of(points, own, adjoint):
             w, u, k = columns.adjoint, columns.displacement, len(columns.one)
             if self.pairs is not None:
@@ -126,8 +126,8 @@ class BodyChange:
                 found += float(np.vdot(self.pairs.on_bodies(columns.system, forces), w))
             for name, f in self.loads.items():
                 found += float(f @ (w @ columns.factor(name)))
-            found -= self._of_cells(Products.of(w, u))
-        return found
+            products.append(Products.of(w, u))
+        return found - self._of_cells(own, adjoint, lambda: products)
 
     @cached_property
     def _by_cells(self) -> bool:
@@ -139,12 +139,21 @@ class BodyChange:
             and all(group.formulation == "standard" for group in straining_groups(self.prepared.space, model))
         )
 
-    def _of_cells(self, products: Products) -> float:
-        """``sum w . K' u`` where nodes move."""
+    def _of_cells(self, own: Sequence[int], adjoint: Adjoint, products: Callable[[], Iterable[Products]]) -> float:
+        """``sum w . K' u`` where nodes move.
+
+        Parameters
+        ----------
+        own, adjoint : numbers of the points, and the output's way back, which keeps what every node does
+        products : gives those of w and u
+        """
         assert self.motion is not None
-        found = np.zeros_like(self.motion)
-        add_node_work(found, self.prepared.space, self.prepared.model, products)
-        return float(np.vdot(found, self.motion))
+        if tuple(own) not in adjoint.by_places:
+            found = np.zeros_like(self.motion)
+            for part in products():
+                add_node_work(found, self.prepared.space, self.prepared.model, part)
+            adjoint.by_places[tuple(own)] = found
+        return float(np.vdot(adjoint.by_places[tuple(own)], self.motion))
 
     def _by_sums(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float | None:
         """What it changes through points of the same bodies; None where pairs see more than their contact nodes."""
@@ -160,8 +169,9 @@ class BodyChange:
             found += float(J[: system.pairs].sum(axis=1) @ self.pairs.gap[rows])
         for name in self.loads.keys() & sums.weighted.keys():
             found += float(self.loads[name] @ sums.weighted[name])
-        by_cells = self._by_cells and not len(self.prepared.constraints.dependent)
-        return found - (self._of_cells(sums.of_cells(1.0)) if by_cells else sums.of_stiffness(self.stiffness))
+        if self._by_cells and not len(self.prepared.constraints.dependent):
+            return found - self._of_cells(own, adjoint, lambda: [sums.of_cells(1.0)])
+        return found - sums.of_stiffness(self.stiffness)
 
     def _by_states(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:
         """What it changes through points of the same bodies, by displacements of their states."""
