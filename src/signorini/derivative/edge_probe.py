@@ -58,11 +58,12 @@ class EdgeProbe:
 
     def parted_by_gaps(self, numbers: Collection[int]) -> bool:
         """Whether gaps of single pairs take edges apart at any of some points."""
-        on_edges, of_all = (
-            np.concatenate([stack.motion[:, 0].sum(axis=0) for stack in self._back(chosen).stacks])
-            for chosen in ({i: kept[i] for i in numbers} for kept in (self._on, self._whole))
-        )
-        return bool(np.abs(on_edges).max() > _NOTHING_APART * np.abs(of_all).max())
+        return _parted(*(self._back({i: kept[i] for i in numbers}) for kept in self._kinds))
+
+    @cached_property
+    def parted(self) -> bool:
+        """Whether gaps of single pairs take any edges apart."""
+        return _parted(*self._sums)
 
     @cached_property
     def _on(self) -> dict[int, IntArray]:
@@ -73,12 +74,13 @@ class EdgeProbe:
     @cached_property
     def _sums(self) -> tuple[Adjoint, Adjoint]:
         """The ways back of the conditions on edges, and of all at the same points."""
-        return self._back(self._on), self._back(self._whole)
+        on_edges, of_all = (self._back(kept) for kept in self._kinds)
+        return on_edges, of_all
 
     @property
-    def _whole(self) -> dict[int, IntArray]:
-        """Numbers of all conditions, by number of the point, where there are edges."""
-        return {i: np.arange(len(self._points[i].conditions.pair)) for i in self._on}
+    def _kinds(self) -> tuple[dict[int, IntArray], dict[int, IntArray]]:
+        """Numbers of the conditions on edges and of all conditions, by number of the point, where there are edges."""
+        return self._on, {i: np.arange(len(self._points[i].conditions.pair)) for i in self._on}
 
     def _back(self, chosen: Mapping[int, IntArray]) -> Adjoint:
         """The way back of the sum of chosen conditions, by number of the point."""
@@ -94,6 +96,15 @@ class EdgeProbe:
         for point, numbers, share in of_bounds:
             _add_bound(adjoint.bounds[point.system], point, numbers, share)
         return adjoint
+
+
+def _parted(on_edges: Adjoint, of_all: Adjoint) -> bool:
+    """Whether gaps of single pairs change conditions on edges, beside what they change of all conditions there."""
+    most = [
+        max((float(np.abs(stack.motion[:, 0].sum(axis=0)).max()) for stack in adjoint.stacks), default=0.0)
+        for adjoint in (on_edges, of_all)
+    ]
+    return most[0] > _NOTHING_APART * most[1]
 
 
 def _weights(point: TapePoint, numbers: IntArray, share: Array) -> Weights:

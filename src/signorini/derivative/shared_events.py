@@ -67,7 +67,9 @@ class SharedEvents:
         InputError
             Where the output feels that.
         """
-        felt = [i for i in self.probe.points if self.felt(i)] if self.probe else []
+        if not (self.probe and self.probe.parted):
+            return
+        felt = [i for i in self.probe.points if self.felt(i)]
         if felt and self.probe.parted_by_gaps(felt):
             words = (
                 f"{self.probe.words(self.view, felt[0])}: derivatives node by node may have two sides there; profile"
