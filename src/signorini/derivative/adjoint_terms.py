@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -13,6 +13,8 @@ from signorini.arrays import Array
 from signorini.derivative.conditions import PieceEvent
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
+from signorini.engine.prepare import Prepared
+from signorini.fem.node_work import Products, add_node_work
 from signorini.law.bound import FrictionBound
 
 
@@ -118,6 +120,30 @@ class Adjoint:
     weights: dict[int, Weights] = field(default_factory=dict)
     by_places: dict[tuple[int, ...], Array] = field(default_factory=dict)
     pulled: dict[int, Array] = field(default_factory=dict)
+
+    def work_by_places(self, own: Sequence[int], prepared: Prepared, products: Iterable[Products]) -> Array:
+        """(nodes, d) How ``sum w . K u`` changes with the place of every node, kept.
+
+        Parameters
+        ----------
+        own : numbers of the points that it is over
+        prepared : the bodies
+        products : of w and u, which are not asked for again
+        """
+        if tuple(own) not in self.by_places:
+            found = np.zeros_like(prepared.space.mesh.points)
+            for part in products:
+                add_node_work(found, prepared.space, prepared.model, part)
+            self.by_places[tuple(own)] = found
+        return self.by_places[tuple(own)]
+
+    @cached_property
+    def by_gaps(self) -> Array:
+        """(n,) How the output changes with the gap of every pair, per length."""
+        found = np.zeros(self.remembered.shape[1])
+        for stack in self.stacks:
+            found[stack.system.active] += stack.motion[:, 0].sum(axis=0)
+        return found
 
     @cached_property
     def terms(self) -> dict[int, PointTerm]:

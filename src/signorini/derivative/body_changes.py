@@ -12,7 +12,7 @@ where bodies are condensed onto contact nodes that is found without h', from sum
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -30,7 +30,7 @@ from signorini.derivative.points import TapePoint
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
 from signorini.fem.kinematics import straining_groups
-from signorini.fem.node_work import Products, add_node_work
+from signorini.fem.node_work import Products
 
 _SUBSTITUTED_POINTS = 3  # points of a history at most: adjoint displacements are found one by one of so many
 
@@ -127,7 +127,7 @@ class BodyChange:
             for name, f in self.loads.items():
                 found += float(f @ (w @ columns.factor(name)))
             products.append(Products.of(w, u))
-        return found - self._of_cells(own, adjoint, lambda: products)
+        return found - self._of_cells(own, adjoint, products)
 
     @cached_property
     def _by_cells(self) -> bool:
@@ -139,21 +139,16 @@ class BodyChange:
             and all(group.formulation == "standard" for group in straining_groups(self.prepared.space, model))
         )
 
-    def _of_cells(self, own: Sequence[int], adjoint: Adjoint, products: Callable[[], Iterable[Products]]) -> float:
+    def _of_cells(self, own: Sequence[int], adjoint: Adjoint, products: Iterable[Products]) -> float:
         """``sum w . K' u`` where nodes move.
 
         Parameters
         ----------
         own, adjoint : numbers of the points, and the output's way back, which keeps what every node does
-        products : gives those of w and u
+        products : of w and u
         """
         assert self.motion is not None
-        if tuple(own) not in adjoint.by_places:
-            found = np.zeros_like(self.motion)
-            for part in products():
-                add_node_work(found, self.prepared.space, self.prepared.model, part)
-            adjoint.by_places[tuple(own)] = found
-        return float(np.vdot(adjoint.by_places[tuple(own)], self.motion))
+        return float(np.vdot(adjoint.work_by_places(own, self.prepared, products), self.motion))
 
     def _by_sums(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float | None:
         """What it changes through points of the same bodies; None where pairs see more than their contact nodes."""
@@ -170,7 +165,7 @@ class BodyChange:
         for name in self.loads.keys() & sums.weighted.keys():
             found += float(self.loads[name] @ sums.weighted[name])
         if self._by_cells and not len(self.prepared.constraints.dependent):
-            return found - self._of_cells(own, adjoint, lambda: [sums.of_cells(1.0)])
+            return found - self._of_cells(own, adjoint, (part.of_cells() for part in (sums,)))
         return found - sums.of_stiffness(self.stiffness)
 
     def _by_states(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:

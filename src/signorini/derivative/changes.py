@@ -99,7 +99,7 @@ class GapChange:
 
     def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:  # noqa: ARG002
         """What the gaps change of an output."""
-        return sum(float(stack.motion[:, 0].sum(axis=0) @ self.gap[stack.system.active]) for stack in adjoint.stacks)
+        return float(adjoint.by_gaps @ self.gap)
 
     def bound(self, system: InterfaceSystem) -> None:  # noqa: ARG002
         """The friction stays."""

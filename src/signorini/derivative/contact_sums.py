@@ -90,14 +90,14 @@ class ContactSums:
         M = self._w @ self._u.T
         return response.factorisation.products(0.5 * (M + M.T), of_free)
 
-    def of_cells(self, factor: float) -> Products:
-        """The sum for dofs that share a cell, times a factor; no dof follows from others in equations."""
+    def of_cells(self) -> Products:
+        """The sum for dofs that share a cell; no dof follows from others in equations."""
         K, prepared = self.system.prepared.K, self.system.prepared
         of_free = reduced_stiffness(sp.csr_array((np.ones(K.nnz), K.indices, K.indptr), K.shape), self._transform)
         w, u = (np.ascontiguousarray(part) for part in self.fields)
         indptr, indices = (part.astype(np.int64) for part in (of_free.indptr, of_free.indices))
         free = prepared.constraints.free
-        return Products(factor * w, u, free, indptr, indices, factor * self.products(of_free))
+        return Products(w, u, free, indptr, indices, self.products(of_free))
 
     @cached_property
     def fields(self) -> tuple[Array, Array]:

@@ -100,11 +100,7 @@ class EdgeProbe:
 
 def _parted(on_edges: Adjoint, of_all: Adjoint) -> bool:
     """Whether gaps of single pairs change conditions on edges, beside what they change of all conditions there."""
-    most = [
-        max((float(np.abs(stack.motion[:, 0].sum(axis=0)).max()) for stack in adjoint.stacks), default=0.0)
-        for adjoint in (on_edges, of_all)
-    ]
-    return most[0] > _NOTHING_APART * most[1]
+    return bool(np.abs(on_edges.by_gaps).max() > _NOTHING_APART * np.abs(of_all.by_gaps).max())
 
 
 def _weights(point: TapePoint, numbers: IntArray, share: Array) -> Weights:

@@ -65,7 +65,7 @@ def node_gradient(view: HistoryView, adjoint: Adjoint, output: Output) -> Array:
     for own in of_same_bodies(view.every, adjoint):
         sums = _sums(view, own, adjoint, sides.rows)
         if sums is not None:
-            add_node_work(found, space, model, sums.of_cells(-1.0))
+            found -= adjoint.work_by_places(own, prepared, (part.of_cells() for part in (sums,)))
             for name in sums.weighted.keys() & weighted.keys():
                 weighted[name] += sums.weighted[name]
             sides.add(sums.system, sums.motion, sums.forces, *sums.on_contact(sides.rows), sums.one)

@@ -14,7 +14,6 @@ from signorini.derivative.adjoint import adjoint_of
 from signorini.derivative.adjoint_terms import Weights
 from signorini.derivative.edge_probe import EdgeProbe
 from signorini.derivative.view import HistoryView
-from signorini.errors import InputError
 from signorini.model.outputs import Output
 
 _FELT = 1e-9  # of how an output changes with anything that is remembered: less is rounding
@@ -55,26 +54,12 @@ class SharedEvents:
             return True
         return bool(behind[:, pairs].max(initial=0.0) > _FELT * behind.max(initial=0.0))
 
-    def refuse_by_nodes(self, what: str) -> None:
-        """Refuse derivatives node by node where gaps of single nodes take apart what pairs do together.
-
-        Parameters
-        ----------
-        what : is asked for
-
-        Raises
-        ------
-        InputError
-            Where the output feels that.
-        """
+    def why_parted(self) -> str:
+        """What the output feels that gaps of single nodes take apart; empty where that is nothing."""
         if not (self.probe and self.probe.parted):
-            return
+            return ""
         felt = [i for i in self.probe.points if self.felt(i)]
-        if felt and self.probe.parted_by_gaps(felt):
-            words = (
-                f"{self.probe.words(self.view, felt[0])}: derivatives node by node may have two sides there; profile"
-            )
-            raise InputError(f"{words}(contact, change) and shape(motion) know what is varied together", where=(what,))
+        return self.probe.words(self.view, felt[0]) if felt and self.probe.parted_by_gaps(felt) else ""
 
     @property
     def last(self) -> int:

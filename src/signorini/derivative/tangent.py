@@ -12,7 +12,7 @@ from signorini.arrays import Array, IntArray
 from signorini.derivative.functionals import weights
 from signorini.derivative.recursion import Change, PointChange
 from signorini.derivative.taped_history import TapedHistory
-from signorini.derivative.tied_peaks import peak_nodes
+from signorini.derivative.tied_peaks import peak_nodes, tied_words
 from signorini.derivative.touching_start import GapRate
 from signorini.derivative.validity import PathEdge
 from signorini.errors import InputError
@@ -104,7 +104,7 @@ class HistoryTangent:
         rates = [self.of(node) for node in nodes]
         low, high = min(rates), max(rates)
         if len(self._ways) > 1 and high - low > _SAME_MOTION * (abs(high) + abs(low)):
-            words = f"nodes {nodes[0].node} and {nodes[1].node} of '{nodes[0].contact}' have the largest pressure alike"
+            words = tied_words(self._history.view, nodes[0], nodes[1])
             raise InputError(f"{words}: what changes it has two sides; those of tangent_sides have one each")
         return high if self._ways[-1] > 0.0 else low
 

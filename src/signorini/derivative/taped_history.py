@@ -212,8 +212,9 @@ class DirectionalDerivative:
         """
         if self.felt(change):
             raise InputError(f"{self.why_apart(change)}: {what} may have two sides there; {ask} gives both where known")
-        found, gap = self.upwards(change), GapRate.of(change)
-        if apart(found - self.through_start(gap, 1.0) + self.through_start(gap, -1.0), found):
+        own, gap = self.along(change), GapRate.of(change)
+        low, found = (own + self.through_start(gap, way) for way in (-1.0, 1.0))
+        if apart(low, found):
             raise InputError(f"{self.why_apart(change)}: {what} has two sides there; {ask} gives both")
         if any(self.between_peaks(change, size)):
             raise InputError(f"{self.why_apart(change)}: {what} has two sides; {ask} gives both")
@@ -282,7 +283,7 @@ class DirectionalDerivative:
 
     def beside(self, change: Change, what: str) -> tuple[DirectionalDerivative, DirectionalDerivative]:
         """The derivatives of the history below and above a change, in words; errors as of `to_sides`."""
-        low, high = self._history.beside(self.felt(change), self._last, what)
+        low, high = self._history.beside(self.felt(change), self._shared.last, what)
         at_end = replace(self.output, load_factor=None)
         below, above = (self if one is self._history else DirectionalDerivative(one, at_end) for one in (low, high))
         return below, above
@@ -319,10 +320,7 @@ class DirectionalDerivative:
 
     def _by_gaps(self) -> Array:
         """The derivative by the gap of every pair, that to one side where it has two."""
-        found = np.zeros(len(self._history.view.interface))
-        for stack in self._adjoint.stacks:
-            found[stack.system.active] += stack.motion[:, 0].sum(axis=0)
-        return sum((share * shortening._by_gaps() for share, shortening in self._locks), found)
+        return sum((share * shortening._by_gaps() for share, shortening in self._locks), self._adjoint.by_gaps)
 
     def refuse_by_nodes(self, what: str) -> None:
         """Refuse derivatives node by node where gaps of single nodes take apart what pairs do together.
@@ -340,7 +338,9 @@ class DirectionalDerivative:
         history.start.refuse_by_nodes(history.view, self._adjoint.remembered, what)
         for _, shortening in self._locks:
             shortening.refuse_by_nodes(what)
-        self._shared.refuse_by_nodes(what)
+        if why := self._shared.why_parted():
+            words = f"{why}: derivatives node by node may have two sides there; profile(contact, change) and"
+            raise InputError(f"{words} shape(motion) know what is varied together", where=(what,))
         for tied, together in self._ties:
             if np.abs(together._by_gaps()).max() > _TWO_SIDES * np.abs(self._by_gaps()).max():
                 words = f"{tied.words}: derivatives node by node have two sides; profile_sides(contact, change) and"
@@ -349,11 +349,6 @@ class DirectionalDerivative:
     def felt(self, change: Change) -> list[PathEdge]:
         """The edges of a change that the output feels."""
         return [edge for edge in self._history.edges(change) if self._shared.felt(edge.point)]
-
-    @property
-    def _last(self) -> int:
-        """Number of the point that the output is asked at."""
-        return self._shared.last
 
     @cached_property
     def _locks(self) -> list[tuple[float, DirectionalDerivative]]:

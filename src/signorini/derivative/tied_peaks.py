@@ -44,10 +44,20 @@ def tied_peaks(output: Output, view: HistoryView) -> list[TiedPeak]:
             first, *others = peak_nodes(part, view)
             if others:
                 more = tuple(WeightedSum(parts=((1.0, other), (-1.0, first))) for other in others)
-                labels = [str(view.model.mesh.labels[node.node]) for node in (first, *others[:1])]
-                words = f"nodes {' and '.join(labels)} of '{first.contact}' have the largest pressure alike"
-                found.append(TiedPeak(factor=factor, others=more, words=words))
+                found.append(TiedPeak(factor=factor, others=more, words=tied_words(view, first, others[0])))
     return found
+
+
+def tied_words(view: HistoryView, one: AtNode, other: AtNode) -> str:
+    """Where a largest pressure is that two nodes have.
+
+    Parameters
+    ----------
+    view : the history
+    one, other : of the nodes
+    """
+    labels = " and ".join(str(view.model.mesh.labels[node.node]) for node in (one, other))
+    return f"nodes {labels} of '{one.contact}' have the largest pressure alike"
 
 
 def peak_nodes(output: Peak, view: HistoryView) -> list[AtNode]:
