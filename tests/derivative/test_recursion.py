@@ -9,8 +9,9 @@ import pytest
 import signorini as sg
 from signorini.derivative.adjoint_terms import BoundTerm, Weights
 from signorini.derivative.block_steps import BlockSteps
+from signorini.derivative.forward import forward
 from signorini.derivative.points import tape_points
-from signorini.derivative.recursion import backward, forward
+from signorini.derivative.recursion import backward
 from signorini.gallery.cylinder import zhu_cylinder
 from tests.derivative.replay import replayed, replayed_in_space
 from tests.derivative.rig import rig, tilted_rig

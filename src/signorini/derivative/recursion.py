@@ -10,17 +10,15 @@ that an event does comes by itself. Backwards the same in transposed steps: poin
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import takewhile
 from types import MappingProxyType
 from typing import Protocol
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array
 from signorini.derivative.adjoint_terms import Adjoint, BoundTerm, PassedPoints, Weights
 from signorini.derivative.block_steps import LONGEST_BLOCK, BlockSteps
-from signorini.derivative.conditions import PieceEvent
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint, with_trials
 
@@ -40,113 +38,6 @@ class Change(AtOnce, Protocol):
 
     def total(self, points: Sequence[TapePoint], adjoint: Adjoint) -> float:
         """What it changes of an output, but by the friction."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class PointChange:
-    """What a parameter changes at a point, per unit of it.
-
-    Attributes
-    ----------
-    h, r : (d, n) of motions and forces of all pairs, length and force, where the point is
-    part : of the part of the leg that is behind
-    bound : of the friction of the active pairs; None where that stays
-    """
-
-    h: Array
-    r: Array
-    part: float
-    bound: BoundTerm | None
-
-
-def forward(points: Sequence[TapePoint], change: AtOnce, remembered: Array) -> list[PointChange]:
-    """What a parameter changes at every point.
-
-    Parameters
-    ----------
-    points : of the history
-    change : what the parameter changes at once
-    remembered : (d - 1, n) what it changes of tangential motions before the first point, length
-    """
-    found: list[PointChange] = []
-    bounds: dict[InterfaceSystem, BoundTerm | None] = {}
-    every = with_trials(points)
-    at_once = dict(zip(every, _seen(every, change.moved(every)), strict=False))
-    for point in points:
-        if point.system not in bounds:
-            bounds[point.system] = change.bound(point.system)
-        with point.determined():
-            memory = found[-1].h[1:] if found else remembered
-            found.append(_following(points, found, memory, bounds[point.system], at_once))
-    return found
-
-
-def _following(
-    points: Sequence[TapePoint],
-    found: Sequence[PointChange],
-    memory: Array,
-    bound: BoundTerm | None,
-    at_once: Mapping[TapePoint, Array],
-) -> PointChange:
-    """What a parameter changes at the point after those that are found.
-
-    Parameters
-    ----------
-    points : of the history
-    found : what it changes at those before
-    memory : (d - 1, all pairs) what it changes of what is remembered, length
-    bound : what it changes of the friction; None for nothing
-    at_once : by point, (d n + k,) what its equations see of what moves at once; empty for nothing
-    """
-    i = len(found)
-    point, part = points[i], 0.0
-    system = point.system
-    system.ahead((points[j].system, points[j].states) for j in range(i, len(points)))
-    whole = np.zeros((2, system.directions, len(system.condensed.active)))
-    h, r = _at_load(point, at_once.get(point), memory, bound)
-    if point.at_event:
-        event = point.event
-        part = -(event.change(h, r) + (0.0 if bound is None else _of_bound(event, bound))) / event.rate
-    elif point.quiet is not None and found:
-        one, two = (found[k].part if k >= 0 and points[k].leg == point.leg else 0.0 for k in (i - 1, i - 2))
-        tried = [_at_load(trial, at_once.get(trial), memory, bound)[1] for trial in point.trials]
-        part = point.quiet.part(one, two, found[-1].r[1:, system.active] / system.root, tried)
-    if part:
-        h_rate, r_rate = _rates(point)
-        h, r = h + part * h_rate, r + part * r_rate
-    whole[0][:, system.active], whole[1][:, system.active] = h / system.root, r * system.root
-    return PointChange(h=whole[0], r=whole[1], part=part, bound=bound)
-
-
-def _at_load(point: TapePoint, load: Array | None, memory: Array, bound: BoundTerm | None) -> tuple[Array, Array]:
-    """What is changed of motions and forces, (d, n), scaled, at the load of a point.
-
-    Parameters
-    ----------
-    point : the point
-    load : (d n + k,) what its equations see of what moves at once; None for nothing
-    memory : (d - 1, all pairs) what is changed of what is remembered, length
-    bound : what is changed of the friction; None for nothing
-    """
-    system, states = point.system, point.states
-    held, given = np.zeros((2, system.directions, system.pairs))
-    remembered = states.held if states.codes is not None else True
-    held[1:] = np.where(remembered, system.root * memory[:, system.active], 0.0)
-    if bound is not None:
-        given[1:] = states.unit * _on_branches(bound, states.branch, np.maximum(point.r[0], 0.0))
-    imposed = system.imposed(held, given)
-    h, r = system.respond(states, imposed if load is None else imposed + load)
-    return h + held, r + given
-
-
-def _seen(points: Sequence[TapePoint], moved: Sequence[tuple[Array, Array]]) -> list[Array]:
-    """(d n + k,) Of every point, what its equations see of motions of the pairs and resultants; empty for none."""
-    found: dict[int, Array] = {}
-    for system in dict.fromkeys(point.system for point in points) if moved else ():
-        own = [i for i, point in enumerate(points) if point.system is system]
-        free = system.condensed.free(*(np.stack([moved[i][k] for i in own]) for k in range(2)))
-        found.update(zip(own, free, strict=True))
-    return [found[i] for i in range(len(found))]
 
 
 def backward(
@@ -344,29 +235,6 @@ def _of_all(memory: Array | None, before: InterfaceSystem | None, system: Interf
     if memory is not None and before is not None:
         whole[:, before.active] = before.root * memory
     return whole
-
-
-def _on_branches(bound: BoundTerm, branch: IntArray, p: Array) -> Array:
-    """(n,) What a change of the bound changes of it on its branches under normal forces p."""
-    pairs = np.arange(len(p))
-    return np.asarray(bound.starts[branch, pairs] + bound.slopes[branch, pairs] * p)
-
-
-def change_of_conditions(point: TapePoint, change: PointChange) -> Array:
-    """(m,) What a parameter changes of the conditions of a piece at its end, scaled."""
-    known, system = point.conditions, point.system
-    found = known.change(system.root * change.h[:, system.active], change.r[:, system.active] / system.root)
-    if change.bound is not None:
-        at = known.branch, known.pair
-        found += known.start * change.bound.starts[at] + known.slope * change.bound.slopes[at]
-        found += known.kink * change.bound.kinks[at]
-    return found
-
-
-def _of_bound(event: PieceEvent, bound: BoundTerm) -> float:
-    """What a change of the friction changes of the condition of an event."""
-    at = event.branch, event.pair
-    return float(event.start * bound.starts[at] + event.slope * bound.slopes[at] + event.kink * bound.kinks[at])
 
 
 def _rates(point: TapePoint) -> tuple[Array, Array]:

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.derivative.forward import PointChange
 from signorini.derivative.functionals import weights
-from signorini.derivative.recursion import Change, PointChange
+from signorini.derivative.recursion import Change
 from signorini.derivative.taped_history import TapedHistory
 from signorini.derivative.tied_peaks import peak_nodes, tied_words
 from signorini.derivative.touching_start import GapRate

@@ -16,13 +16,14 @@ from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import ChangeWithLocks, LoadChange, LockChange
 from signorini.derivative.direct_changes import pulled_by, read_otherwise
 from signorini.derivative.edge_probe import EdgeProbe
+from signorini.derivative.forward import PointChange, forward
 from signorini.derivative.functionals import value
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.modulus_pairs import ModulusPairs
 from signorini.derivative.one_sided import beyond
 from signorini.derivative.parameters import change_of
 from signorini.derivative.points import TapePoint, tape_points
-from signorini.derivative.recursion import Change, PointChange, changed, forward
+from signorini.derivative.recursion import Change, changed
 from signorini.derivative.refusals import refuse_tape
 from signorini.derivative.shared_events import SharedEvents
 from signorini.derivative.tied_peaks import TiedPeak, tied_peaks

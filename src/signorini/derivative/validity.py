@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.derivative.forward import PointChange, change_of_conditions
 from signorini.derivative.points import TapePoint
-from signorini.derivative.recursion import PointChange, change_of_conditions
 from signorini.derivative.view import HistoryView
 from signorini.solution.sensitivities import Validity
 
