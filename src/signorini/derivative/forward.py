@@ -64,13 +64,22 @@ class ForwardWalk:
         every = with_trials(points)
         self._at_once = dict(zip(every, _seen(every, change.moved(every)), strict=False))
 
-    def put(self, points: Sequence[TapePoint]) -> None:
-        """Put other points of the same place and load in place of the next one."""
+    @property
+    def ahead(self) -> bool:
+        """Whether there is a point ahead."""
+        return len(self.found) < len(self.points)
+
+    @property
+    def next(self) -> TapePoint:
+        """The next point."""
+        return self.points[len(self.found)]
+
+    def put(self, points: Sequence[TapePoint], like: TapePoint) -> None:
+        """Put other points in place of the next one, of which new ones are at the place and the load of one like it."""
         i = len(self.found)
-        at_once = self._at_once.get(self.points[i])
         self.points[i : i + 1] = points
-        if at_once is not None:
-            self._at_once |= dict.fromkeys(points, at_once)
+        if like in self._at_once:
+            self._at_once |= {point: self._at_once[like] for point in points if point not in self._at_once}
 
     def go_on(self) -> None:
         """To the next point."""
@@ -90,7 +99,7 @@ class ForwardWalk:
         self.found.append(_of_all(point.system, h, r, part, bound))
 
     def at_load(self, point: TapePoint) -> PointChange:
-        """What is changed where the next point is, at its load, in the states of a point there."""
+        """What is changed at the load of the next point, in the states of one at the same place."""
         with point.determined():
             return _of_all(point.system, *self._at_load(point), 0.0, self._bound(point.system))
 
@@ -112,7 +121,7 @@ class ForwardWalk:
         """What is changed of motions and forces, (d, n), scaled, at the load of a point, or of a trial for it."""
         system, states, bound = point.system, point.states, self._bound(point.system)
         memory = self.found[-1].h[1:] if self.found else self._remembered
-        load = self._at_once.get(point, self._at_once.get(self.points[len(self.found)]))
+        load = self._at_once.get(point, self._at_once.get(self.next))
         held, given = np.zeros((2, system.directions, system.pairs))
         remembered = states.held if states.codes is not None else True
         held[1:] = np.where(remembered, system.root * memory[:, system.active], 0.0)

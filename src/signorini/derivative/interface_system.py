@@ -30,6 +30,8 @@ from signorini.law.pair import Tangent
 from signorini.law.states import OPEN, SLIP_PLUS, STICK
 from signorini.solution.state import LoadPoint
 
+_SAME_WAY = 1e-6  # of a unit vector, and of friction over its bound: edges and corners of polygons that are one
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PairStates:
@@ -49,6 +51,21 @@ class PairStates:
     branch: IntArray
     codes: IntArray | None = None
     tangent: Tangent | None = None
+
+    def same(self, other: PairStates) -> bool:
+        """Whether states of the same pairs are the same ones."""
+        if self.codes is not None and other.codes is not None:
+            return np.array_equal(self.codes, other.codes)
+        one, two = self.tangent, other.tangent
+        assert one is not None
+        assert two is not None
+        corner = one.left == 0  # along an edge friction differs
+        ways = [one.tau - two.tau, (self.unit - other.unit)[:, corner]]
+        return (
+            all(np.array_equal(getattr(self, name), getattr(other, name)) for name in ("held", "branch"))
+            and all(np.array_equal(getattr(one, name), getattr(two, name)) for name in ("closed", "left"))
+            and max(float(np.abs(way).max(initial=0.0)) for way in ways) <= _SAME_WAY
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,26 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a history does on the side of a parameter where a pair that comes to its event at the very end goes through it.
+"""What a history does to each side of what is varied, where pairs share an event or come to one at the very end.
 
-On a path the last piece ends at that event there, and one of no length follows in the states in which the path would go
-on under more load: other pairs may change theirs with it, and on smooth cones friction keeps its direction, or takes
-that of the rates where a pair closes. In an increment, also in one on the way that goes on over events, the pair alone
-obeys another part of its law.
+On paths that are linear from event to event these come one after the other, see `event_order`. On smooth cones the last
+piece ends at that event, and one of no length follows in the states in which the path would go on under more load:
+other pairs may change theirs with it, and friction keeps its direction, or takes that of the rates where a pair closes.
+In an increment, also in one on the way that goes on over events, the pair alone obeys another part of its law.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from signorini.arrays import Array, frozen
+from signorini.derivative.event_order import order_known
 from signorini.derivative.interface_system import PairStates
 from signorini.derivative.points import TapePoint
 from signorini.derivative.space_conditions import states_of_piece
+from signorini.derivative.validity import PathEdge
 from signorini.derivative.view import HistoryView
 from signorini.engine.tape import Leg
-from signorini.friction.history import follow
+from signorini.errors import InputError
 from signorini.friction.history.rates import NoRates
 from signorini.friction.history.space.find_rates import find_rates
 
@@ -28,7 +30,44 @@ _NUDGE = 1e-9  # of the data: how far beyond its event a pair is looked at
 _WIDTH = 1e-8  # of the data: of zero at an event on a smooth cone
 
 
-def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) -> list[TapePoint] | None:
+def beside(
+    view: HistoryView,
+    legs: Sequence[Leg],
+    found: Sequence[PathEdge],
+    what: str,
+    in_order: Callable[[float], Sequence[TapePoint]],
+) -> tuple[Sequence[TapePoint], Sequence[TapePoint]]:
+    """The points of a history below and above what is varied.
+
+    Parameters
+    ----------
+    view : the history, up to where it is asked for
+    legs : straight parts of the history
+    found : its edges
+    what : is varied, in words
+    in_order : gives its points with events in order, to the lower side (-1) and to the upper one (1)
+
+    Raises
+    ------
+    InputError
+        Where one of both is not known.
+    """
+    points, last = view.points, len(view.points) - 1
+    words = f"{found[0].words}: what {what} does on the other side is not known"
+    if any(points[edge.point].system.locked != points[-1].system.locked for edge in found):  # bolts lock behind it
+        raise InputError(words)
+    if all(order_known(points[edge.point]) for edge in found):
+        try:
+            return in_order(-1.0), in_order(1.0)
+        except InputError as error:
+            raise InputError(f"{words}; {error}") from error
+    across = _beyond(view, found[0].condition, legs, last) if len(found) == 1 and found[0].point == last else None
+    if across is None:
+        raise InputError(words)
+    return (across, points) if found[0].change > 0.0 else (points, across)
+
+
+def _beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) -> list[TapePoint] | None:
     """The points of a history on the other side of an event at their end; None where that is not known.
 
     Parameters
@@ -38,7 +77,7 @@ def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) ->
     legs : straight parts of the history
     last : number of that point
     """
-    *before, point = view.points[: last + 1]
+    *before, point = view.points
     pair = int(point.conditions.pair[condition])
     if point.rates is None or point.passes:
         states = _nudged(point, view.motions(last - 1)[1:] if last else None, condition)
@@ -51,23 +90,15 @@ def beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) ->
 
 
 def _gone_on(point: TapePoint, leg: Leg) -> PairStates | None:
-    """The states in which the path of a leg would go on; None where it does not."""
+    """The states in which the path of a leg on smooth cones would go on; None where it does not."""
     assert leg.start is not None
     assert leg.segment is not None
     law, end = point.system.law, leg.segment.end
-    if point.states.codes is None and (law.law.rubs & (law.section.sides == 0)).any():
-        rates = find_rates(replace(law, b=frozen(end.b - leg.start.b)), end, _WIDTH * (law.scale or 1.0))
-        if isinstance(rates, NoRates):
-            return None
-        part = _NUDGE * (law.scale or 1.0) / max(np.abs(rates.h).max(), np.abs(rates.r).max())
-        return states_of_piece(law, rates.state, (end.h, end.r), (end.h + part * rates.h, end.r + part * rates.r))
-    pieces = follow(law, end, 2.0 * end.b - leg.start.b, leaves=lambda _: True).pieces
-    if len(pieces) < 2 or pieces[1].state is None:
+    rates = find_rates(replace(law, b=frozen(end.b - leg.start.b)), end, _WIDTH * (law.scale or 1.0))
+    if isinstance(rates, NoRates):
         return None
-    state, now = pieces[1].state, (pieces[1].h, pieces[1].r)
-    if point.states.codes is None:
-        return states_of_piece(law, state.state, (end.h, end.r), now)
-    return point.system.states_of_codes(state.state)
+    part = _NUDGE * (law.scale or 1.0) / max(np.abs(rates.h).max(), np.abs(rates.r).max())
+    return states_of_piece(law, rates.state, (end.h, end.r), (end.h + part * rates.h, end.r + part * rates.r))
 
 
 def _nudged(point: TapePoint, before: Array | None, condition: int) -> PairStates:

@@ -153,7 +153,7 @@ def tangent_sides(
     found = [edge for edge in history.edges(change) if edge.point <= last]
     below, above = (
         HistoryTangent(side, side.forward(change, way), load_factor if side is history else None, (way,))
-        for side, way in zip(history.beside(found, last, f"'{kind}.{name}'"), (-1.0, 1.0), strict=True)
+        for side, way in zip(history.beside(change, found, last, f"'{kind}.{name}'"), (-1.0, 1.0), strict=True)
     )
     return below, above
 

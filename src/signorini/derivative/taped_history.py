@@ -16,14 +16,15 @@ from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import ChangeWithLocks, LoadChange, LockChange
 from signorini.derivative.direct_changes import pulled_by, read_otherwise
 from signorini.derivative.edge_probe import EdgeProbe
-from signorini.derivative.forward import PointChange, forward
+from signorini.derivative.event_order import EventOrder
+from signorini.derivative.forward import ForwardWalk, PointChange, forward
 from signorini.derivative.functionals import value
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.modulus_pairs import ModulusPairs
-from signorini.derivative.one_sided import beyond
+from signorini.derivative.one_sided import beside
 from signorini.derivative.parameters import change_of
 from signorini.derivative.points import TapePoint, tape_points
-from signorini.derivative.recursion import Change, changed
+from signorini.derivative.recursion import AtOnce, Change, changed
 from signorini.derivative.refusals import refuse_tape
 from signorini.derivative.shared_events import SharedEvents
 from signorini.derivative.tied_peaks import TiedPeak, tied_peaks
@@ -64,6 +65,7 @@ class TapedHistory:
         self._changes: dict[tuple[str, str], Change] = {}
         self._forward: dict[tuple[Change, float], list[PointChange]] = {}
         self._edges: dict[Change, list[PathEdge]] = {}
+        self._ordered: dict[tuple[Change, float, int], Sequence[TapePoint]] = {}
         self._locked: dict[str, DirectionalDerivative] = {}
         self._seen = ModulusPairs(self.prepared)
         self.start = TouchingStart(legs=self.legs, points=self.view.points)
@@ -89,7 +91,7 @@ class TapedHistory:
         """The history with other states at some points."""
         other = copy(self)
         other.view, other.probe = replace(self.view, points=points), EdgeProbe(points)
-        other._forward, other._edges = {}, {}
+        other._forward, other._edges, other._ordered = {}, {}, {}
         return other
 
     def change(self, kind: str, name: str) -> Change:
@@ -112,9 +114,7 @@ class TapedHistory:
             Where it moves gaps of pairs that touch as the history begins, and what that does is not known.
         """
         if (change, way) not in self._forward:
-            gap = GapRate.of(change)
-            remembered = way * self.start.memory(gap.times(way)) if self.start.moved(gap).any() else self._nothing
-            self._forward[change, way] = self._along(change, remembered)
+            self._forward[change, way] = self._along(change, self._remembered(change, way))
         return self._forward[change, way]
 
     def _upwards(self, change: Change) -> list[PointChange]:
@@ -124,11 +124,19 @@ class TapedHistory:
         except InputError:
             return self._along(change, self._nothing)
 
+    def _remembered(self, change: Change, way: float) -> Array:
+        """(d - 1, n) What a change makes of tangential motions before the first point, to one side, length per unit."""
+        gap = GapRate.of(change)
+        return way * self.start.memory(gap.times(way)) if self.start.moved(gap).any() else self._nothing
+
     def _along(self, change: Change, remembered: Array) -> list[PointChange]:
         """What a change makes of every point, which is ``remembered`` before them, (d - 1, n) length per unit."""
+        return forward(self.view.points, self._at_once(change), remembered)
+
+    def _at_once(self, change: Change) -> AtOnce:
+        """What a change changes at once, with the shortenings at which bolts lock."""
         shortenings = {lock.name: shortening.along(change) for lock, shortening in self.locks()}
-        at_once = ChangeWithLocks(change=change, shortenings=shortenings) if shortenings else change
-        return forward(self.view.points, at_once, remembered)
+        return ChangeWithLocks(change=change, shortenings=shortenings) if shortenings else change
 
     @property
     def _nothing(self) -> Array:
@@ -136,19 +144,21 @@ class TapedHistory:
         return np.zeros((self.view.interface.directions - 1, len(self.view.interface)))
 
     def edges(self, change: Change) -> list[PathEdge]:
-        """Where a change has another derivative to each of its sides, kept."""
+        """Where a change may have another derivative to each of its sides, kept."""
         if change not in self._edges:
             parted = self.probe and (self.view.points[-1].system.locked or self.probe.takes_apart(change))
-            rounding = _SAME_CONDITION / change.step if isinstance(change, BodyChange) else 0.0
-            self._edges[change] = edges(self.view, self._upwards(change), rounding) if parted else []
+            self._edges[change] = edges(self.view, self._upwards(change), _rounding(change)) if parted else []
         return self._edges[change]
 
-    def beside(self, found: Sequence[PathEdge], last: int, what: str) -> tuple[TapedHistory, TapedHistory]:
-        """The history below and above what is varied, up to a point; the same but at an event there.
+    def beside(
+        self, change: Change, found: Sequence[PathEdge], last: int, what: str
+    ) -> tuple[TapedHistory, TapedHistory]:
+        """The history below and above what is varied, up to a point; the same where a change has no edges.
 
         Parameters
         ----------
-        found : edges up to there
+        change : what is varied
+        found : its edges up to there
         last : number of the point
         what : is varied, in words
 
@@ -159,12 +169,24 @@ class TapedHistory:
         """
         if not found:
             return self, self
-        at_end = len(found) == 1 and found[0].point == last
-        other = beyond(self.view, found[0].condition, self.legs, last) if at_end else None
-        if other is None:
-            raise InputError(f"{found[0].words}: what {what} does on the other side is not known")
-        across = self.on(other)
-        return (across, self) if found[0].change > 0.0 else (self, across)
+        view = replace(self.view, points=self.view.points[: last + 1])
+        sides = beside(view, self.legs, found, what, lambda way: self._in_order(change, way, view.points))
+        low, high = (self if points is view.points else self.on(points) for points in sides)
+        return low, high
+
+    def _in_order(self, change: Change, way: float, points: Sequence[TapePoint]) -> Sequence[TapePoint]:
+        """Points of the history with those between events that a change takes apart to one side, kept."""
+        key = change, way, len(points)
+        if key not in self._ordered:
+            order = EventOrder(
+                walk=ForwardWalk(points, self._at_once(change), self._remembered(change, way)),
+                legs=self.legs,
+                way=way,
+                moves=max(abs(found.part) for found in self._upwards(change)),
+                rounding=_rounding(change),
+            )
+            self._ordered[key] = order.points()
+        return self._ordered[key]
 
     def holds(self, kind: str, name: str) -> Validity:
         """In which changes of a parameter the sequence of events stays."""
@@ -211,15 +233,11 @@ class DirectionalDerivative:
         InputError
             Where it has two sides.
         """
-        if self.felt(change):
-            raise InputError(f"{self.why_apart(change)}: {what} may have two sides there; {ask} gives both where known")
-        own, gap = self.along(change), GapRate.of(change)
-        low, found = (own + self.through_start(gap, way) for way in (-1.0, 1.0))
-        if apart(low, found):
-            raise InputError(f"{self.why_apart(change)}: {what} has two sides there; {ask} gives both")
-        if any(self.between_peaks(change, size)):
-            raise InputError(f"{self.why_apart(change)}: {what} has two sides; {ask} gives both")
-        return found
+        low, high = self.to_sides(change, size, what)
+        if apart(low, high):
+            words = f"{what} has two sides there, {low:.6g} and {high:.6g}; {ask} gives both"
+            raise InputError(f"{self.why_apart(change)}: {words}")
+        return high
 
     def why_apart(self, change: Change) -> str:
         """Why a change may have another derivative to each of its sides."""
@@ -284,7 +302,7 @@ class DirectionalDerivative:
 
     def beside(self, change: Change, what: str) -> tuple[DirectionalDerivative, DirectionalDerivative]:
         """The derivatives of the history below and above a change, in words; errors as of `to_sides`."""
-        low, high = self._history.beside(self.felt(change), self._shared.last, what)
+        low, high = self._history.beside(change, self.felt(change), self._shared.last, what)
         at_end = replace(self.output, load_factor=None)
         below, above = (self if one is self._history else DirectionalDerivative(one, at_end) for one in (low, high))
         return below, above
@@ -348,8 +366,9 @@ class DirectionalDerivative:
                 raise InputError(f"{words} shape_sides(motion) know both of what is varied together", where=(what,))
 
     def felt(self, change: Change) -> list[PathEdge]:
-        """The edges of a change that the output feels."""
-        return [edge for edge in self._history.edges(change) if self._shared.felt(edge.point)]
+        """The edges of a change that the output feels, also by the shortenings at which bolts lock."""
+        own = [edge for edge in self._history.edges(change) if self._shared.felt(edge.point)]
+        return own + [edge for _, shortening in self._locks for edge in shortening.felt(change)]
 
     @cached_property
     def _locks(self) -> list[tuple[float, DirectionalDerivative]]:
@@ -366,6 +385,11 @@ class DirectionalDerivative:
         if isinstance(change, LoadChange):
             found += pulled_by(view, change, self._adjoint.pulled, self._pulls)
         return found
+
+
+def _rounding(change: Change) -> float:
+    """Of the data of the law, per unit of a change: what rounding makes of conditions."""
+    return _SAME_CONDITION / change.step if isinstance(change, BodyChange) else 0.0
 
 
 def apart(low: float, high: float) -> bool:

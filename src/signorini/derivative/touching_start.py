@@ -20,7 +20,6 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, extent
 from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import GapChange
-from signorini.derivative.interface_system import PairStates
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import Change
@@ -37,7 +36,6 @@ from signorini.friction.history import Segment
 _ZERO = 1e-10  # of the data of the law: a gap, or a force, that is none
 _PARTS = (1e-2, 1e-3, 1e-4)  # of how far half a piece goes: larger than what a path takes two events together in
 _UNTIL = 0.5  # of the first piece: where motions are compared
-_SAME_WAY = 1e-6  # of a unit vector, and of friction over its bound: edges and corners of polygons that are one
 _SAME_MOTION = 1e-6  # of the largest, or of the change: motions that are in proportion to it
 _SAME_SIDES = 1e-6  # of motions as long as changes of gaps: what may be left of both ways together
 _SAME_PLACE = 1e-14  # of the size of the model: what gaps differ by between places that are the same
@@ -245,24 +243,10 @@ class TouchingStart:
         system, (before, last) = first.system, segment.pieces[-2:]
         assert last.state is not None
         if first.states.codes is not None:
-            return np.array_equal(last.state.state, first.states.codes)
-        found = states_of_piece(system.law, last.state.state, (before.h, before.r), (last.h, last.r))
-        return _alike(found, first.states)
+            return system.states_of_codes(last.state.state).same(first.states)
+        return states_of_piece(system.law, last.state.state, (before.h, before.r), (last.h, last.r)).same(first.states)
 
 
 def _in_proportion(one: Array, two: Array) -> bool:
     """Whether motions per share of a change of gaps, whose largest is 1, are the same."""
     return float(np.abs(one - two).max()) <= _SAME_MOTION * max(1.0, float(np.abs(one).max()))
-
-
-def _alike(one: PairStates, two: PairStates) -> bool:
-    """Whether states of pairs in space are the same."""
-    assert one.tangent is not None
-    assert two.tangent is not None
-    corner = two.tangent.left == 0  # along an edge friction differs
-    ways = [one.tangent.tau - two.tangent.tau, (one.unit - two.unit)[:, corner]]
-    return (
-        all(np.array_equal(getattr(one, name), getattr(two, name)) for name in ("held", "branch"))
-        and all(np.array_equal(getattr(one.tangent, name), getattr(two.tangent, name)) for name in ("closed", "left"))
-        and max(float(np.abs(way).max(initial=0.0)) for way in ways) <= _SAME_WAY
-    )

@@ -14,8 +14,11 @@ from signorini.derivative.points import TapePoint
 from signorini.derivative.view import HistoryView
 from signorini.solution.sensitivities import Validity
 
-_SHARED_EVENT = 1e-7  # of the largest move of an event: by how much events that share a load may move apart
-_ZERO = 1e-10  # of the data of the law: a condition that no parameter can be near to
+SHARED_EVENT = 1e-7
+"""Of the largest move of an event: by how much events that share a load may move apart."""
+
+ZERO = 1e-10
+"""Of the data of the law: a condition that no parameter can be near to."""
 
 
 def validity(view: HistoryView, changes: Sequence[PointChange], at_start: Sequence[PathEdge]) -> Validity:
@@ -66,7 +69,7 @@ def on_edge(point: TapePoint) -> list[int]:
         return []
     if point.at_event:
         return point.shared if len(point.acting) > 1 else []
-    return np.flatnonzero(np.abs(point.conditions.value) <= _ZERO * (point.system.law.scale or 1.0)).tolist()
+    return np.flatnonzero(np.abs(point.conditions.value) <= ZERO * (point.system.law.scale or 1.0)).tolist()
 
 
 def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0.0) -> list[PathEdge]:
@@ -87,11 +90,11 @@ def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0
             rate, grows = float(point.conditions.rate[k]), float(grown[k])
             scale = point.system.law.scale or 1.0
             apart = (
-                abs(grows / rate) > _SHARED_EVENT * moves
+                abs(grows / rate) > SHARED_EVENT * moves
                 if point.at_event
-                else abs(grows) > _SHARED_EVENT * float(np.abs(grown).max())
+                else abs(grows) > SHARED_EVENT * float(np.abs(grown).max())
             )
-            if apart and abs(grows) > scale * max(_ZERO * moves, rounding):
+            if apart and abs(grows) > scale * max(ZERO * moves, rounding):
                 found.append(PathEdge(point=i, condition=k, change=grows, words=edge_words(view, point, k)))
     return found
 
@@ -120,7 +123,7 @@ def _conditions(
     for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
         known, scale = point.conditions, point.system.law.scale or 1.0
         happens = [known.number(point.event), *point.shared] if point.at_event else []
-        there = (known.value > _ZERO * scale) & ~np.isin(np.arange(len(known.value)), happens)
+        there = (known.value > ZERO * scale) & ~np.isin(np.arange(len(known.value)), happens)
         named = np.flatnonzero(there)
         words = _words(view, point, known.pair[named], _what(point, named))
         yield known.value[there], change_of_conditions(point, change)[there], words

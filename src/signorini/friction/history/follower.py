@@ -11,7 +11,7 @@ import numpy as np
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.attempt import Spent
 from signorini.errors import InputError
-from signorini.friction.history.rates import NoRates
+from signorini.friction.history.rates import NoRates, Rates
 from signorini.friction.history.segment import Breakpoint, Event, Jump, Segment, What
 from signorini.friction.history.state import PathState
 from signorini.friction.overload import Overload
@@ -111,6 +111,10 @@ class PathFollower(ABC):
     @abstractmethod
     def departs(self) -> bool:
         """One piece in which acting pairs are in a next state, not in those that led here; whether there is one."""
+
+    @abstractmethod
+    def rates_at(self, state: PathState) -> Rates | NoRates:
+        """Rates along the way behind a state, wherever that is; why there are none."""
 
     def crosses(self, before: PathState) -> bool:  # noqa: ARG002
         """One piece across a fold of the curve of equilibria that led here from ``before``; whether there is one."""

@@ -92,6 +92,12 @@ class PlaneFollower(PathFollower):
         """The rates from here on, up to the next event or the end; why there are none, or None."""
         return self._turn() or self._advance()
 
+    def rates_at(self, state: PathState) -> Rates | NoRates:
+        """Rates along the way behind a state, wherever that is; why there are none."""
+        self.now, self.rates, self.acting = self._entered(state), None, np.zeros(0, dtype=np.int64)
+        law = self._law()
+        return find_rates(self.responses, law, self.load, self.now.state, self._guesses(law))
+
     def departs(self) -> bool:
         """One piece in which acting pairs are in a next state, not in those that led here; whether there is one."""
         law, acts = self._law(), self._acts

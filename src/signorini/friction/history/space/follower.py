@@ -117,6 +117,10 @@ class SpaceFollower(PathFollower):
         rest = f"; {found.proof}" if isinstance(found, NoRates) else f", though there are rates; {followed} tried along"
         return NoRates(proof=f"{words}{rest}", proved=False) if words else None
 
+    def rates_at(self, state: PathState) -> Rates | NoRates:
+        """Rates along the way behind a state, wherever that is; why there are none."""
+        return find_rates(self.rate_problem, state, self.near)
+
     def goes_back(self) -> bool:
         """Whether an increment has passed over something: back to its beginning, to go through it event by event."""
         # close to a limit of the load all increments miss energy

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Events that pairs share, one after the other: in the order in which a change brings them about, to one of its sides.
+
+Where several conditions g vanish at one load a change e of what is given takes them apart, by parts of the load in
+proportion to it. In between, the history has pieces that are no longer than that: to first order, points at the same
+place. In each of them the equations of its states hold; it ends where the first of the conditions vanishes, of all
+that fall, at ``-e g' / (dg/dl)``; and the states behind are those in which the law lets the rates go on while the
+other conditions do not vanish yet. With these points the history has events of single pairs, and its derivative is
+that of any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from signorini.arrays import Array, BoolArray, IntArray
+from signorini.derivative.forward import ForwardWalk, change_of_conditions
+from signorini.derivative.interface_system import PairStates
+from signorini.derivative.points import TapePoint
+from signorini.derivative.space_conditions import states_of_piece
+from signorini.derivative.validity import SHARED_EVENT, ZERO, on_edge
+from signorini.engine.tape import Leg
+from signorini.errors import InputError
+from signorini.friction.history import PathSettings
+from signorini.friction.history.follow import follower
+from signorini.friction.history.follower import PathFollower
+from signorini.friction.history.rates import NoRates
+from signorini.law.states import OPEN, SLIP, STICK
+
+_ASIDE = 1e-6  # of the data: how far conditions are put from zero that do not vanish yet; more than a width of zero
+_MOST_EVENTS = 1000  # at one point, after which its order is given up
+_AHEAD = 1e-3  # of the data: how far rates are followed to see which way pairs slip
+
+
+def order_known(point: TapePoint) -> bool:
+    """Whether events at a point can be put in order: on paths that are linear from one to the next."""
+    law = point.system.law
+    cones = point.states.codes is None and bool((law.law.rubs & (law.section.sides == 0)).any())
+    return point.rates is not None and not point.passes and not cones
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class EventOrder:
+    """The order of the events of a history that pairs share, to one side of a change.
+
+    Attributes
+    ----------
+    walk : forwards along the history with the change, from its beginning
+    legs : straight parts of the history
+    way : 1 upwards, -1 downwards
+    moves : part of a leg that the change moves events by at most, per unit
+    rounding : of the data of the law, per unit: what a change of a condition is as good as none below
+    """
+
+    walk: ForwardWalk
+    legs: Sequence[Leg]
+    way: float
+    moves: float
+    rounding: float
+    _ways: dict[int, PathFollower] = field(default_factory=dict, init=False)
+
+    def points(self) -> list[TapePoint]:
+        """The points of the history, with those between events that the change takes apart.
+
+        Raises
+        ------
+        InputError
+            Where the order, or what pairs do in it, is not known.
+        """
+        walk = self.walk
+        while walk.ahead:
+            if order_known(walk.next) and on_edge(walk.next):
+                self._one_by_one()
+            else:
+                walk.go_on()
+        return walk.points
+
+    def _one_by_one(self) -> None:
+        """Through the events at the next point."""
+        walk, point = self.walk, self.walk.next
+        states = self._through(point, point.states, np.inf if point.at_event else 0.0)
+        if not point.at_event:
+            walk.put([replace(point, states=states)], like=point)
+            walk.go_on()
+            if not (walk.ahead and order_known(walk.next) and walk.next.system is point.system):
+                return
+            turn = replace(point, leg=walk.next.leg, part=0.0)  # the loads go on in another direction
+            walk.put([turn, walk.next], like=point)
+            states = self._through(turn, self._behind(self._piece(turn, states), 0.0), np.inf)
+        walk.put([], like=point)
+        if not (walk.ahead and states.same(walk.next.states)):
+            raise _not_known(point)
+
+    def _through(self, point: TapePoint, states: PairStates, end: float) -> PairStates:
+        """The states behind all events at the next point, which is passed as often as it has some.
+
+        Parameters
+        ----------
+        point : the next one
+        states : of the pairs before these events
+        end : part of the leg, from the point and per unit of the change, that its events come before
+        """
+        for _ in range(_MOST_EVENTS):
+            piece = self._piece(point, states)
+            parts = piece.parts(end)
+            if not np.isfinite(parts).any():
+                return states
+            first = float(parts.min())
+            acting = np.isfinite(parts) & (piece.at(first) <= piece.none)
+            pairs = np.unique(piece.point.conditions.pair[piece.numbers[acting]])
+            self.walk.put([replace(piece.point, acting=pairs), point], like=point)
+            self.walk.go_on()
+            states = self._behind(piece, first)
+        raise _not_known(point)
+
+    def _piece(self, point: TapePoint, states: PairStates) -> _Piece:
+        """The piece at the next point in which pairs have some states."""
+        system, leg = point.system, self.legs[point.leg]
+        assert leg.start is not None
+        assert leg.segment is not None
+        here = replace(point, states=states, acting=np.zeros(0, dtype=np.int64), quiet=None)
+        with here.determined():
+            h_rate, r_rate = system.respond(states, system.free(leg.segment.end.b - leg.start.b))
+        here = replace(here, h_rate=h_rate, r_rate=r_rate)
+        scale, known = system.law.scale or 1.0, here.conditions
+        numbers = np.flatnonzero(np.abs(known.value) <= ZERO * scale)
+        rates = known.rate[numbers]
+        return _Piece(
+            point=here,
+            numbers=numbers,
+            grows=self.way * change_of_conditions(here, self.walk.at_load(here))[numbers],
+            rates=rates,
+            none=np.maximum(SHARED_EVENT * self.moves * np.abs(rates), scale * max(ZERO * self.moves, self.rounding)),
+        )
+
+    def _behind(self, piece: _Piece, part: float) -> PairStates:
+        """The states behind a part of the leg in a piece, while conditions that do not vanish there are aside."""
+        point = piece.point
+        law, leg, states = point.system.law, self.legs[point.leg], point.states
+        assert leg.start is not None
+        assert leg.segment is not None
+        h, r = piece.aside(piece.at(part) > piece.none)
+        codes = _codes(states)
+        now = replace(leg.start, h=h, r=r, state=codes, anchor=h[1:])
+        if point.leg not in self._ways:
+            self._ways[point.leg] = follower(law, leg.start, leg.segment.end.b, PathSettings())
+        rates = self._ways[point.leg].rates_at(now)
+        if isinstance(rates, NoRates):
+            raise _not_known(point)
+        if states.codes is not None:
+            return point.system.states_of_codes(rates.state)
+        ahead = _AHEAD * (law.scale or 1.0) / rates.size
+        found = states_of_piece(law, rates.state, (h, r), (h + ahead * rates.h, r + ahead * rates.r))
+        size = law.bound.at(np.maximum(point.r[0], 0.0))
+        slips = found.unit.any(axis=0) & (size > 0.0)
+        return replace(found, unit=np.divide(point.r[1:], size, out=found.unit.copy(), where=slips))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Piece:
+    """A piece of no length at a point.
+
+    Attributes
+    ----------
+    point : with the states of the piece, and nobody acting
+    numbers : (m,) of its conditions that vanish at the load
+    grows, rates : (m,) what the change makes of these there, and per unit of the part of the leg
+    none : (m,) how much of them is as good as nothing
+    """
+
+    point: TapePoint
+    numbers: IntArray
+    grows: Array
+    rates: Array
+    none: Array
+
+    def at(self, part: float) -> Array:
+        """(m,) What the change makes of the conditions a part of the leg away, per unit."""
+        return np.asarray(self.grows + part * self.rates if part else self.grows)
+
+    def parts(self, end: float) -> Array:
+        """(m,) Parts of the leg at which conditions vanish that do before an end, 0 or inf; inf of others."""
+        falls = (self.rates < 0.0) & ((end > 0.0) | (self.grows < -self.none))
+        return np.divide(-self.grows, self.rates, out=np.full(len(self.rates), np.inf), where=falls)
+
+    def aside(self, which: BoolArray) -> tuple[Array, Array]:
+        """(d, n) Motions and forces of the point, with some conditions (m,) put from zero, the others left there."""
+        point, known = self.point, self.point.conditions
+        law, h, r = point.system.law, point.h.copy(), point.r.copy()
+        pairs = known.pair[self.numbers]
+        for pair in np.unique(pairs[which]).tolist():
+            own = np.flatnonzero(pairs == pair)
+            at = self.numbers[own]
+            rows = np.column_stack([known.gap[at], known.pressure[at], known.friction[:, at].T])
+            moved = np.linalg.lstsq(rows, _ASIDE * (law.scale or 1.0) * which[own], rcond=None)[0]
+            h[0, pair] += moved[0]
+            r[:, pair] += moved[1:]
+        slips = point.states.unit.any(axis=0) & (r[0] > point.r[0])
+        r[1:] = np.where(slips, point.states.unit * law.bound.at(np.maximum(r[0], 0.0)), r[1:])
+        return h, r
+
+
+def _codes(states: PairStates) -> IntArray:
+    """(n,) The states as a path has them."""
+    if states.codes is not None:
+        return states.codes
+    assert states.tangent is not None
+    closed = np.where(states.held.all(axis=0), STICK, SLIP)
+    return np.where(states.tangent.closed, closed, OPEN).astype(np.int64)
+
+
+def _not_known(point: TapePoint) -> InputError:
+    return InputError(f"what pairs do one after the other at load factor {point.load_factor:.9g} is not known")
