@@ -213,7 +213,7 @@ class Derivative(DirectionalDerivative):
             Where motions of single nodes do not add up: those of a straight side opposite another meshed one, and
             those that take apart what pairs do together.
         """
-        found = node_gradient(self._history.view, self._adjoint, self.output)
+        found = node_gradient(self._history.view, self._adjoint, self._read)
         self.refuse_by_nodes("nodes")
         return found
 

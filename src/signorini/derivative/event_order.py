@@ -30,16 +30,9 @@ from signorini.friction.history.follower import PathFollower
 from signorini.friction.history.rates import NoRates
 from signorini.law.states import OPEN, SLIP, STICK
 
-_ASIDE = 1e-6  # of the data: how far conditions are put from zero that do not vanish yet; more than a width of zero
+_ASIDE = 1e-3  # of the data, or of what presses a pair: how far conditions are put from zero that do not vanish yet
 _MOST_EVENTS = 1000  # at one point, after which its order is given up
-_AHEAD = 1e-3  # of the data: how far rates are followed to see which way pairs slip
-
-
-def order_known(point: TapePoint) -> bool:
-    """Whether events at a point can be put in order: on paths that are linear from one to the next."""
-    law = point.system.law
-    cones = point.states.codes is None and bool((law.law.rubs & (law.section.sides == 0)).any())
-    return point.rates is not None and not point.passes and not cones
+_AHEAD = 1e-3  # of the data: how far rates are followed at most to see which way pairs slip
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -72,7 +65,7 @@ class EventOrder:
         """
         walk = self.walk
         while walk.ahead:
-            if order_known(walk.next) and on_edge(walk.next):
+            if walk.next.on_linear_path and on_edge(walk.next):
                 self._one_by_one()
             else:
                 walk.go_on()
@@ -85,7 +78,7 @@ class EventOrder:
         if not point.at_event:
             walk.put([replace(point, states=states)], like=point)
             walk.go_on()
-            if not (walk.ahead and order_known(walk.next) and walk.next.system is point.system):
+            if not (walk.ahead and walk.next.on_linear_path and walk.next.system is point.system):
                 return
             turn = replace(point, leg=walk.next.leg, part=0.0)  # the loads go on in another direction
             walk.put([turn, walk.next], like=point)
@@ -152,8 +145,11 @@ class EventOrder:
             raise _not_known(point)
         if states.codes is not None:
             return point.system.states_of_codes(rates.state)
-        ahead = _AHEAD * (law.scale or 1.0) / rates.size
-        found = states_of_piece(law, rates.state, (h, r), (h + ahead * rates.h, r + ahead * rates.r))
+        known, moved = point.conditions, (h - point.h, r - point.r)
+        left, falls = known.value + known.change(*moved), -known.change(rates.h, rates.r)
+        on_way = (left > ZERO * (law.scale or 1.0)) & (falls > 0.0)
+        ahead = 0.5 * float(np.min(left[on_way] / falls[on_way], initial=_AHEAD * (law.scale or 1.0) / rates.size))
+        found = states_of_piece(law, rates.state, (0.0 * h, r), (ahead * rates.h, r + ahead * rates.r))
         size = law.bound.at(np.maximum(point.r[0], 0.0))
         slips = found.unit.any(axis=0) & (size > 0.0)
         return replace(found, unit=np.divide(point.r[1:], size, out=found.unit.copy(), where=slips))
@@ -190,15 +186,17 @@ class _Piece:
         """(d, n) Motions and forces of the point, with some conditions (m,) put from zero, the others left there."""
         point, known = self.point, self.point.conditions
         law, h, r = point.system.law, point.h.copy(), point.r.copy()
+        none = ZERO * (law.scale or 1.0)
         pairs = known.pair[self.numbers]
         for pair in np.unique(pairs[which]).tolist():
             own = np.flatnonzero(pairs == pair)
             at = self.numbers[own]
             rows = np.column_stack([known.gap[at], known.pressure[at], known.friction[:, at].T])
-            moved = np.linalg.lstsq(rows, _ASIDE * (law.scale or 1.0) * which[own], rcond=None)[0]
+            size = float(point.r[0, pair]) if point.r[0, pair] > none else law.scale or 1.0
+            moved = np.linalg.lstsq(rows, _ASIDE * size * which[own], rcond=None)[0]
             h[0, pair] += moved[0]
             r[:, pair] += moved[1:]
-        slips = point.states.unit.any(axis=0) & (r[0] > point.r[0])
+        slips = point.states.unit.any(axis=0) & (point.r[0] <= none) & (r[0] > none)
         r[1:] = np.where(slips, point.states.unit * law.bound.at(np.maximum(r[0], 0.0)), r[1:])
         return h, r
 

@@ -85,8 +85,8 @@ class ForwardWalk:
         """To the next point."""
         i, points = len(self.found), self.points
         point = points[i]
-        point.system.ahead((points[j].system, points[j].states) for j in range(i, len(points)))
         with point.determined():
+            point.system.ahead((points[j].system, points[j].states) for j in range(i, len(points)))
             (h, r), bound, part = self._at_load(point), self._bound(point.system), 0.0
             if point.at_event:
                 event = point.event

@@ -15,7 +15,6 @@ from dataclasses import replace
 import numpy as np
 
 from signorini.arrays import Array, frozen
-from signorini.derivative.event_order import order_known
 from signorini.derivative.interface_system import PairStates
 from signorini.derivative.points import TapePoint
 from signorini.derivative.space_conditions import states_of_piece
@@ -56,7 +55,7 @@ def beside(
     words = f"{found[0].words}: what {what} does on the other side is not known"
     if any(points[edge.point].system.locked != points[-1].system.locked for edge in found):  # bolts lock behind it
         raise InputError(words)
-    if all(order_known(points[edge.point]) for edge in found):
+    if all(points[edge.point].on_linear_path for edge in found):
         try:
             return in_order(-1.0), in_order(1.0)
         except InputError as error:

@@ -68,6 +68,7 @@ class TapePoint:
     quiet : in space, how it moves in the middle of a leg where nothing happens; None elsewhere
     trials : ends of the increments that told the length of that
     passes : in space, whether an event in the piece would not end it
+    at_rest : whether it is where the history begins, in the states that pairs are in from there on
     acting : (m,) pairs whose event it is; empty where the load is given
     increment : (n,) or all: whether the friction of a pair in the piece is that of its end, as in an increment
     """
@@ -88,11 +89,19 @@ class TapePoint:
     quiet: QuietEnd | None = None
     trials: tuple[TapePoint, ...] = ()
     passes: bool = False
+    at_rest: bool = False
 
     @property
     def at_event(self) -> bool:
         """Whether the load here moves with what is varied."""
         return len(self.acting) > 0
+
+    @property
+    def on_linear_path(self) -> bool:
+        """Whether it is on a path that is linear from one event to the next: in the plane, and on polygons."""
+        law = self.system.law
+        cones = self.states.codes is None and bool((law.law.rubs & (law.section.sides == 0)).any())
+        return self.rates is not None and not self.passes and not cones
 
     @cached_property
     def rates(self) -> tuple[Array, Array] | None:

@@ -11,11 +11,10 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.derivative.forward import PointChange
 from signorini.derivative.functionals import weights
-from signorini.derivative.recursion import Change
+from signorini.derivative.points import TapePoint
 from signorini.derivative.taped_history import TapedHistory
 from signorini.derivative.tied_peaks import peak_nodes, tied_words
 from signorini.derivative.touching_start import GapRate
-from signorini.derivative.validity import PathEdge
 from signorini.errors import InputError
 from signorini.model.outputs import AtNode, Displacement, Output, Peak, Stress, WeightedSum
 
@@ -40,7 +39,7 @@ class ContactTangent:
     motion: Array
 
 
-_SAME_MOTION = 1e-6  # of the largest: what is remembered to both sides of a parameter that has one tangent
+_SAME = 1e-6  # of the largest: motions and forces, and pressures of nodes, to both sides of what has one derivative
 
 
 class HistoryTangent:
@@ -59,10 +58,37 @@ class HistoryTangent:
         history: TapedHistory,
         changes: Sequence[PointChange],
         load_factor: float | None,
-        ways: tuple[float, ...] = (-1.0, 1.0),
+        ways: tuple[float, ...],
     ) -> None:
-        self._history, self._changes, self._ways = history, changes, ways
+        self._history, self._changes, self._load_factor, self._ways = history, changes, load_factor, ways
         self._number = history.view.number(load_factor)
+
+    def apart(self, other: HistoryTangent) -> bool:
+        """Whether that to the other side is another one, at a given load or at an event that both have."""
+        if self._changes is other._changes:
+            return False
+        known = dict(other._at_points)
+        both = [(change, known[point]) for point, change in self._at_points if point in known]
+        both += zip(self._at_given_loads, other._at_given_loads, strict=True)
+        for name in ("h", "r"):
+            one, two = (np.stack([getattr(pair[k], name) for pair in both]) for k in range(2))
+            if np.abs(one - two).max() > _SAME * max(np.abs(one).max(), np.abs(two).max()):
+                return True
+        return False
+
+    @property
+    def _at_points(self) -> list[tuple[TapePoint, PointChange]]:
+        """Of every point what it changes there."""
+        return list(zip(self._history.view.points, self._changes, strict=True))
+
+    @property
+    def _at_given_loads(self) -> list[PointChange]:
+        """What it changes where loads are given."""
+        return [change for point, change in self._at_points if not point.at_event and point.quiet is None]
+
+    def to_both(self) -> HistoryTangent:
+        """The same, of a parameter that changes the same to both sides."""
+        return HistoryTangent(self._history, self._changes, self._load_factor, (-1.0, 1.0))
 
     def contact(self, name: str) -> ContactTangent:
         """What it changes of a contact, by name."""
@@ -104,7 +130,7 @@ class HistoryTangent:
         """What it changes of the largest pressure, which several nodes have."""
         rates = [self.of(node) for node in nodes]
         low, high = min(rates), max(rates)
-        if len(self._ways) > 1 and high - low > _SAME_MOTION * (abs(high) + abs(low)):
+        if len(self._ways) > 1 and high - low > _SAME * (abs(high) + abs(low)):
             words = tied_words(self._history.view, nodes[0], nodes[1])
             raise InputError(f"{words}: what changes it has two sides; those of tangent_sides have one each")
         return high if self._ways[-1] > 0.0 else low
@@ -124,13 +150,14 @@ def tangent(history: TapedHistory, kind: str, name: str, load_factor: float | No
     InputError
         Where answers have two sides, or what happens is not known.
     """
-    change, last = history.change(kind, name), history.view.number(load_factor)
-    why = [edge for edge in history.edges(change) if edge.point <= last]
-    why = why or _two_sides_at_start(history, change)
-    if why:
-        words = f"{why[0].words}: what '{kind}.{name}' changes has two sides there; tangent_sides({kind}='{name}')"
-        raise InputError(f"{words} gives both where that is known")
-    return HistoryTangent(history, history.forward(change, 1.0), load_factor)
+    below, above = tangent_sides(history, kind, name, load_factor)
+    if below.apart(above):
+        change, last = history.change(kind, name), history.view.number(load_factor)
+        on_way = [edge for edge in history.edges(change) if edge.point <= last]
+        why = [*on_way, *history.start.edges(history.view, GapRate.of(change))][0].words
+        words = f"what '{kind}.{name}' changes has two sides there; tangent_sides({kind}='{name}') gives both"
+        raise InputError(f"{why}: {words}")
+    return above.to_both()
 
 
 def tangent_sides(
@@ -156,13 +183,3 @@ def tangent_sides(
         for side, way in zip(history.beside(change, found, last, f"'{kind}.{name}'"), (-1.0, 1.0), strict=True)
     )
     return below, above
-
-
-def _two_sides_at_start(history: TapedHistory, change: Change) -> list[PathEdge]:
-    """Pairs that touch as the history begins, and remember something else on each side of a change; else nothing."""
-    start, gap = history.start, GapRate.of(change)
-    if not start.moved(gap).any():
-        return []
-    above, below = (start.memory(gap.times(way)) for way in (1.0, -1.0))
-    same = float(np.abs(above + below).max()) <= _SAME_MOTION * float(np.abs(above).max())
-    return [] if same else start.edges(history.view, gap)

@@ -27,7 +27,7 @@ from signorini.derivative.points import TapePoint, tape_points
 from signorini.derivative.recursion import AtOnce, Change, changed
 from signorini.derivative.refusals import refuse_tape
 from signorini.derivative.shared_events import SharedEvents
-from signorini.derivative.tied_peaks import TiedPeak, tied_peaks
+from signorini.derivative.tied_peaks import TiedPeak, at_peaks, tied_peaks
 from signorini.derivative.touching_start import GapRate, TouchingStart
 from signorini.derivative.validity import PathEdge, edges, validity
 from signorini.derivative.view import HistoryView
@@ -60,7 +60,9 @@ class TapedHistory:
 
     def __init__(self, tape: Tape, model: Model) -> None:
         refuse_tape(tape, model)
-        self.view, self.legs = HistoryView.of(tape_points(tape)), tape.legs
+        points, self.legs = tape_points(tape), tape.legs
+        self.start = TouchingStart(legs=self.legs, points=points)
+        self.view = HistoryView.of([*self.start.at_rest, *points])
         self.probe = EdgeProbe(self.view.points)
         self._changes: dict[tuple[str, str], Change] = {}
         self._forward: dict[tuple[Change, float], list[PointChange]] = {}
@@ -68,7 +70,6 @@ class TapedHistory:
         self._ordered: dict[tuple[Change, float, int], Sequence[TapePoint]] = {}
         self._locked: dict[str, DirectionalDerivative] = {}
         self._seen = ModulusPairs(self.prepared)
-        self.start = TouchingStart(legs=self.legs, points=self.view.points)
 
     @property
     def prepared(self) -> Prepared:
@@ -113,9 +114,10 @@ class TapedHistory:
         InputError
             Where it moves gaps of pairs that touch as the history begins, and what that does is not known.
         """
-        if (change, way) not in self._forward:
-            self._forward[change, way] = self._along(change, self._remembered(change, way))
-        return self._forward[change, way]
+        key = change, way if self.start.moved(GapRate.of(change)).any() else 1.0
+        if key not in self._forward:
+            self._forward[key] = self._along(change, self._remembered(change, way))
+        return self._forward[key]
 
     def _upwards(self, change: Change) -> list[PointChange]:
         """What a change makes upwards; without what pairs do that touch as the history begins where it is not known."""
@@ -194,6 +196,11 @@ class TapedHistory:
         return validity(self.view, self._upwards(change), self.start.edges(self.view, GapRate.of(change)))
 
 
+def _rounding(change: Change) -> float:
+    """Of the data of the law, per unit of a change: what rounding makes of conditions."""
+    return _SAME_CONDITION / change.step if isinstance(change, BodyChange) else 0.0
+
+
 class DirectionalDerivative:
     """The derivative of an output of a history along changes of what is given, from one way back through its events.
 
@@ -208,12 +215,10 @@ class DirectionalDerivative:
     """
 
     def __init__(self, history: TapedHistory, output: Output) -> None:
-        self._history, self.output = history, output
-        self.value = value(output, history.view)
-        self._adjoint, self._pulls = adjoint_of(history.view, output)
-        self._shared = SharedEvents(
-            view=history.view, probe=history.probe, output=output, weights=self._adjoint.weights
-        )
+        self._history, self.output, view = history, output, history.view
+        self.value, self._read = value(output, view), at_peaks(output, view)
+        self._adjoint, self._pulls = adjoint_of(view, self._read)
+        self._shared = SharedEvents(view=view, probe=history.probe, output=output, weights=self._adjoint.weights)
 
     def along(self, change: Change) -> float:
         """What a change changes of the output, also by the shortenings at which bolts lock."""
@@ -381,15 +386,10 @@ class DirectionalDerivative:
         view = self._history.view
         found = changed(view.every, self._adjoint, change)
         if isinstance(change, BodyChange | ModulusChange):
-            found += read_otherwise(self.output, view, change)
+            found += read_otherwise(self._read, view, change)
         if isinstance(change, LoadChange):
             found += pulled_by(view, change, self._adjoint.pulled, self._pulls)
         return found
-
-
-def _rounding(change: Change) -> float:
-    """Of the data of the law, per unit of a change: what rounding makes of conditions."""
-    return _SAME_CONDITION / change.step if isinstance(change, BodyChange) else 0.0
 
 
 def apart(low: float, high: float) -> bool:

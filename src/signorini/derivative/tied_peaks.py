@@ -48,6 +48,13 @@ def tied_peaks(output: Output, view: HistoryView) -> list[TiedPeak]:
     return found
 
 
+def at_peaks(output: Output, view: HistoryView) -> Output:
+    """An output with its largest pressures at the nodes that have them, also where what is varied moves these."""
+    if isinstance(output, WeightedSum):
+        return WeightedSum(parts=tuple((factor, at_peaks(part, view)) for factor, part in output.parts))
+    return peak_nodes(output, view)[0] if isinstance(output, Peak) else output
+
+
 def tied_words(view: HistoryView, one: AtNode, other: AtNode) -> str:
     """Where a largest pressure is that two nodes have.
 

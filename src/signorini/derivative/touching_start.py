@@ -97,6 +97,35 @@ class TouchingStart:
     points: Sequence[TapePoint]
     _known: dict[bytes, Array] = field(default_factory=dict, init=False)
 
+    @property
+    def at_rest(self) -> list[TapePoint]:
+        """Where pairs that touch begin to be in the states of the first piece, on a path: nothing moves or presses yet.
+
+        What pairs that slip from there on have moved by then changes with gaps, and friction takes no work from that.
+        """
+        first, leg = self.points[0], self.legs[0]
+        if not self.pairs.any() or not first.on_linear_path:
+            return []
+        none = np.zeros_like(first.h)
+        assert leg.start is not None
+        return [
+            replace(
+                first,
+                load=first.system.posed(leg.before.point),
+                load_factor=leg.low,
+                part=0.0,
+                h=leg.start.h,
+                r=none,
+                h_rate=None,
+                r_rate=None,
+                load_rate=None,
+                acting=np.zeros(0, dtype=np.int64),
+                quiet=None,
+                trials=(),
+                at_rest=True,
+            )
+        ]
+
     @cached_property
     def pairs(self) -> BoolArray:
         """(n,) Those that touch without a force before anything is loaded, in a history that is followed to events."""
@@ -181,8 +210,7 @@ class TouchingStart:
         system = first.system
         assert leg.start is not None
         assert leg.segment is not None
-        cones = system.directions == 3 and bool((system.law.law.rubs & (system.law.section.sides == 0)).any())
-        if not (cones or leg.start.r.any() or first.quiet or first.passes):
+        if first.on_linear_path and not (leg.start.r.any() or first.quiet):
             way = _UNTIL * first.part * (leg.segment.end.b - leg.start.b)
             size = float(np.abs(way).max()) / float(np.abs(system.root * rate.gap[system.active]).max())
             found = (self._per_share(part * size, rate, way) for part in _PARTS)

@@ -65,7 +65,7 @@ class PathEdge:
 
 def on_edge(point: TapePoint) -> list[int]:
     """Numbers of the conditions that vanish at a given load; at an event those beyond that of the event."""
-    if point.quiet is not None:
+    if point.quiet is not None or point.at_rest:
         return []
     if point.at_event:
         return point.shared if len(point.acting) > 1 else []
