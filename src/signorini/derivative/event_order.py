@@ -16,10 +16,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, IntArray
 from signorini.derivative.forward import ForwardWalk, change_of_conditions
 from signorini.derivative.interface_system import PairStates
-from signorini.derivative.points import TapePoint
+from signorini.derivative.points import GRAZES, TapePoint
 from signorini.derivative.space_conditions import states_of_piece
 from signorini.derivative.validity import SHARED_EVENT, ZERO, on_edge
 from signorini.engine.tape import Leg
@@ -31,7 +31,7 @@ from signorini.friction.history.rates import NoRates
 from signorini.law.states import OPEN, SLIP, STICK
 
 _ASIDE = 1e-3  # of the data, or of what presses a pair: how far conditions are put from zero that do not vanish yet
-_MOST_EVENTS = 1000  # at one point, after which its order is given up
+_MOST_EVENTS = 100  # at one point, after which its order is given up
 _AHEAD = 1e-3  # of the data: how far rates are followed at most to see which way pairs slip
 
 
@@ -106,7 +106,9 @@ class EventOrder:
             pairs = np.unique(piece.point.conditions.pair[piece.numbers[acting]])
             self.walk.put([replace(piece.point, acting=pairs), point], like=point)
             self.walk.go_on()
-            states = self._behind(piece, first)
+            before, states = states, self._behind(piece, first)
+            if states.same(before):
+                break
         raise _not_known(point)
 
     def _piece(self, point: TapePoint, states: PairStates) -> _Piece:
@@ -135,7 +137,7 @@ class EventOrder:
         law, leg, states = point.system.law, self.legs[point.leg], point.states
         assert leg.start is not None
         assert leg.segment is not None
-        h, r = piece.aside(piece.at(part) > piece.none)
+        h, r = piece.aside(part)
         codes = _codes(states)
         now = replace(leg.start, h=h, r=r, state=codes, anchor=h[1:])
         if point.leg not in self._ways:
@@ -179,21 +181,22 @@ class _Piece:
 
     def parts(self, end: float) -> Array:
         """(m,) Parts of the leg at which conditions vanish that do before an end, 0 or inf; inf of others."""
-        falls = (self.rates < 0.0) & ((end > 0.0) | (self.grows < -self.none))
+        falls = (self.rates < -GRAZES * self.point.fastest) & ((end > 0.0) | (self.grows < -self.none))
         return np.divide(-self.grows, self.rates, out=np.full(len(self.rates), np.inf), where=falls)
 
-    def aside(self, which: BoolArray) -> tuple[Array, Array]:
-        """(d, n) Motions and forces of the point, with some conditions (m,) put from zero, the others left there."""
-        point, known = self.point, self.point.conditions
+    def aside(self, part: float) -> tuple[Array, Array]:
+        """(d, n) Motions and forces with conditions as a part of the leg away has them, but for their size."""
+        point, known, values = self.point, self.point.conditions, self.at(part)
         law, h, r = point.system.law, point.h.copy(), point.r.copy()
-        none = ZERO * (law.scale or 1.0)
-        pairs = known.pair[self.numbers]
-        for pair in np.unique(pairs[which]).tolist():
+        scale = law.scale or 1.0
+        none = ZERO * scale
+        pairs, values = known.pair[self.numbers], np.where(values > self.none, values, 0.0)
+        for pair in np.unique(pairs[values > 0.0]).tolist():
             own = np.flatnonzero(pairs == pair)
             at = self.numbers[own]
             rows = np.column_stack([known.gap[at], known.pressure[at], known.friction[:, at].T])
-            size = float(point.r[0, pair]) if point.r[0, pair] > none else law.scale or 1.0
-            moved = np.linalg.lstsq(rows, _ASIDE * size * which[own], rcond=None)[0]
+            size = _ASIDE * (float(point.r[0, pair]) if point.r[0, pair] > none else scale)
+            moved = np.linalg.lstsq(rows, size * values[own] / values[own].max(), rcond=None)[0]
             h[0, pair] += moved[0]
             r[:, pair] += moved[1:]
         slips = point.states.unit.any(axis=0) & (point.r[0] <= none) & (r[0] > none)

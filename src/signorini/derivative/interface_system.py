@@ -62,7 +62,7 @@ class PairStates:
         corner = one.left == 0  # along an edge friction differs
         ways = [one.tau - two.tau, (self.unit - other.unit)[:, corner]]
         return (
-            all(np.array_equal(getattr(self, name), getattr(other, name)) for name in ("held", "branch"))
+            np.array_equal(self.branch, other.branch)
             and all(np.array_equal(getattr(one, name), getattr(two, name)) for name in ("closed", "left"))
             and max(float(np.abs(way).max(initial=0.0)) for way in ways) <= _SAME_WAY
         )

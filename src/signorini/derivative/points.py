@@ -44,7 +44,9 @@ from signorini.friction.history.segment import Breakpoint
 from signorini.law.states import OPEN, SLIP_PLUS
 from signorini.solution.state import LoadPoint
 
-_GRAZES = 1e-9  # of the fastest condition of a piece: one that hardly moves
+GRAZES = 1e-9
+"""Of the fastest condition of a piece: one that hardly moves."""
+
 _STANDSTILL = 1e-13  # of a segment: a piece that is no longer
 _TOUCHES = 1e-9  # of the largest gap, and of what rigid motions open most: none
 _NOBODY: IntArray = np.zeros(0, dtype=np.int64)  # acts at a given load
@@ -154,11 +156,16 @@ class TapePoint:
         if not found:
             raise InputError(f"the event at load factor {self.load_factor:.9g} has no pair that goes through it")
         first = min(found, key=lambda event: abs(event.value / event.rate))
-        fastest = max(float(np.abs(self.rates[0][0]).max()), float(np.abs(self.rates[1]).max()))
-        if -first.rate <= _GRAZES * fastest:
+        if -first.rate <= GRAZES * self.fastest:
             words = f"a pair grazes its event at load factor {self.load_factor:.9g}, which it comes to without speed"
             raise InputError(f"{words}: derivatives are infinite there")
         return first
+
+    @property
+    def fastest(self) -> float:
+        """Rate of the gap or force that moves fastest."""
+        assert self.rates is not None
+        return max(float(np.abs(self.rates[0][0]).max()), float(np.abs(self.rates[1]).max()))
 
     def _events(self) -> Iterator[PieceEvent]:
         """The conditions of the acting pairs."""
