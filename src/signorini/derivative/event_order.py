@@ -24,7 +24,7 @@ from signorini.derivative.space_conditions import states_of_piece
 from signorini.derivative.validity import SHARED_EVENT, ZERO, on_edge
 from signorini.engine.tape import Leg
 from signorini.errors import InputError
-from signorini.friction.history import PathSettings
+from signorini.friction.history import PathSettings, PathState
 from signorini.friction.history.follow import follower
 from signorini.friction.history.follower import PathFollower
 from signorini.friction.history.rates import NoRates
@@ -78,9 +78,11 @@ class EventOrder:
         if not point.at_event:
             walk.put([replace(point, states=states)], like=point)
             walk.go_on()
-            if not (walk.ahead and walk.next.on_linear_path and walk.next.system is point.system):
+            if not (walk.ahead and walk.next.on_linear_path):
                 return
-            turn = replace(point, leg=walk.next.leg, part=0.0)  # the loads go on in another direction
+            if not walk.next.system.alike(point.system):
+                raise _not_known(point)
+            turn = replace(point, leg=walk.next.leg, system=walk.next.system, part=0.0)  # loads go on otherwise
             walk.put([turn, walk.next], like=point)
             states = self._through(turn, self._behind(self._piece(turn, states), 0.0), np.inf)
         walk.put([], like=point)
@@ -113,12 +115,10 @@ class EventOrder:
 
     def _piece(self, point: TapePoint, states: PairStates) -> _Piece:
         """The piece at the next point in which pairs have some states."""
-        system, leg = point.system, self.legs[point.leg]
-        assert leg.start is not None
-        assert leg.segment is not None
+        system, (start, end) = point.system, self._ends(point)
         here = replace(point, states=states, acting=np.zeros(0, dtype=np.int64), quiet=None)
         with here.determined():
-            h_rate, r_rate = system.respond(states, system.free(leg.segment.end.b - leg.start.b))
+            h_rate, r_rate = system.respond(states, system.free(end - start.b))
         here = replace(here, h_rate=h_rate, r_rate=r_rate)
         scale, known = system.law.scale or 1.0, here.conditions
         numbers = np.flatnonzero(np.abs(known.value) <= ZERO * scale)
@@ -134,15 +134,11 @@ class EventOrder:
     def _behind(self, piece: _Piece, part: float) -> PairStates:
         """The states behind a part of the leg in a piece, while conditions that do not vanish there are aside."""
         point = piece.point
-        law, leg, states = point.system.law, self.legs[point.leg], point.states
-        assert leg.start is not None
-        assert leg.segment is not None
+        law, states, (start, end) = point.system.law, point.states, self._ends(point)
         h, r = piece.aside(part)
-        codes = _codes(states)
-        now = replace(leg.start, h=h, r=r, state=codes, anchor=h[1:])
         if point.leg not in self._ways:
-            self._ways[point.leg] = follower(law, leg.start, leg.segment.end.b, PathSettings())
-        rates = self._ways[point.leg].rates_at(now)
+            self._ways[point.leg] = follower(law, start, end, PathSettings())
+        rates = self._ways[point.leg].rates_at(replace(start, h=h, r=r, state=_codes(states), anchor=h[1:]))
         if isinstance(rates, NoRates):
             raise _not_known(point)
         if states.codes is not None:
@@ -155,6 +151,13 @@ class EventOrder:
         size = law.bound.at(np.maximum(point.r[0], 0.0))
         slips = found.unit.any(axis=0) & (size > 0.0)
         return replace(found, unit=np.divide(point.r[1:], size, out=found.unit.copy(), where=slips))
+
+    def _ends(self, point: TapePoint) -> tuple[PathState, Array]:
+        """The state of the path at the beginning of the leg of a point, and the load at its end."""
+        leg = self.legs[point.leg]
+        assert leg.start is not None
+        assert leg.segment is not None
+        return leg.start, leg.segment.end.b
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -117,6 +117,11 @@ class InterfaceSystem:
         """Names the bodies, loads and supports under it, which several systems share."""
         return tuple(id(part) for part in (self.condensed.response, self.prepared.loads, self.prepared.constraints))
 
+    def alike(self, other: InterfaceSystem) -> bool:
+        """Whether it is that of the same pairs on the same bodies, with the same friction."""
+        same = self.bodies == other.bodies and (self.friction, self.locked) == (other.friction, other.locked)
+        return same and np.array_equal(self.active, other.active)
+
     def posed(self, point: LoadPoint) -> LoadPoint:
         """A point of the load history, with the shortenings of locked bolts among its factors."""
         if not self.locked:

@@ -40,12 +40,12 @@ class SharedEvents:
 
         Behind it states are the same ones, whatever the order, and what is given tells motions and forces from what is
         remembered. So a path in the plane keeps of the order what pairs remember that begin to stick there, or act, and
-        outputs what they are asked there themselves.
+        outputs what they are asked there themselves. Where loads turn, pairs may slip a little before they stick again.
         """
         point = self.view.points[i]
         if i > self.last:
             return False
-        if i == self.last or point.states.codes is None or np.any(point.increment):
+        if i == self.last or not point.at_event or point.states.codes is None or np.any(point.increment):
             return True
         acting = np.concatenate([point.acting, point.conditions.pair[self.probe.conditions(i)]])
         changing = np.flatnonzero((~point.states.held).any(axis=0) | np.isin(np.arange(point.system.pairs), acting))

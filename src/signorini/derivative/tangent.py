@@ -5,18 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.derivative.forward import PointChange
 from signorini.derivative.functionals import weights
-from signorini.derivative.points import TapePoint
 from signorini.derivative.taped_history import TapedHistory
 from signorini.derivative.tied_peaks import peak_nodes, tied_words
 from signorini.derivative.touching_start import GapRate
 from signorini.errors import InputError
-from signorini.model.outputs import AtNode, Displacement, Output, Peak, Stress, WeightedSum
+from signorini.model.outputs import AtNode, Displacement, Dissipation, Output, Peak, Stress, WeightedSum
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -64,27 +64,26 @@ class HistoryTangent:
         self._number = history.view.number(load_factor)
 
     def apart(self, other: HistoryTangent) -> bool:
-        """Whether that to the other side is another one, at a given load or at an event that both have."""
+        """Whether that to the other side is another one: of motions, of forces, or of what friction has taken."""
         if self._changes is other._changes:
             return False
-        known = dict(other._at_points)
-        both = [(change, known[point]) for point, change in self._at_points if point in known]
-        both += zip(self._at_given_loads, other._at_given_loads, strict=True)
-        for name in ("h", "r"):
-            one, two = (np.stack([getattr(pair[k], name) for pair in both]) for k in range(2))
-            if np.abs(one - two).max() > _SAME * max(np.abs(one).max(), np.abs(two).max()):
+        ends = list(zip(self._given_loads, other._given_loads, strict=True))
+        fields = [(getattr(self._changes[i], name), getattr(other._changes[j], name)) for i, j in ends for name in "hr"]
+        if any(np.abs(one - two).max() > _SAME * max(np.abs(one).max(), np.abs(two).max()) for one, two in fields):
+            return True
+        points, contacts = self._history.view.points, self._history.view.model.contacts
+        for factor, contact in product({points[i].load_factor for i, _ in ends}, contacts):
+            work = Dissipation(load_factor=factor, contact="" if contact.tied else contact.label)
+            one, two = self._terms(work), other._terms(work)
+            if abs(one.sum() - two.sum()) > _SAME * max(np.abs(one).sum(), np.abs(two).sum()):
                 return True
         return False
 
     @property
-    def _at_points(self) -> list[tuple[TapePoint, PointChange]]:
-        """Of every point what it changes there."""
-        return list(zip(self._history.view.points, self._changes, strict=True))
-
-    @property
-    def _at_given_loads(self) -> list[PointChange]:
-        """What it changes where loads are given."""
-        return [change for point, change in self._at_points if not point.at_event and point.quiet is None]
+    def _given_loads(self) -> list[int]:
+        """Numbers of the points at which loads are given."""
+        points = self._history.view.points
+        return [i for i, point in enumerate(points) if not point.at_event and point.quiet is None]
 
     def to_both(self) -> HistoryTangent:
         """The same, of a parameter that changes the same to both sides."""
@@ -120,11 +119,12 @@ class HistoryTangent:
             return self._of_peak(nodes)
         if isinstance(output, Displacement | Stress):
             raise InputError(f"{output!r} is an output of bodies; ask for its derivative")
-        found = 0.0
-        for i, weight in weights(output, self._history.view).items():
-            change = self._changes[i]
-            found += float(np.vdot(weight.h, change.h) + np.vdot(weight.r, change.r))
-        return found
+        return float(self._terms(output).sum())
+
+    def _terms(self, output: Output) -> Array:
+        """What it changes of an output of contacts by what it changes at one point after the other."""
+        pairs = [(weight, self._changes[i]) for i, weight in weights(output, self._history.view).items()]
+        return np.array([np.vdot(weight.h, change.h) + np.vdot(weight.r, change.r) for weight, change in pairs])
 
     def _of_peak(self, nodes: Sequence[AtNode]) -> float:
         """What it changes of the largest pressure, which several nodes have."""
