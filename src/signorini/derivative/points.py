@@ -47,6 +47,7 @@ from signorini.solution.state import LoadPoint
 GRAZES = 1e-9
 """Of the fastest condition of a piece: one that hardly moves."""
 
+_VANISHES = 1e-10  # of the data: a condition that vanishes with another
 _STANDSTILL = 1e-13  # of a segment: a piece that is no longer
 _TOUCHES = 1e-9  # of the largest gap, and of what rigid motions open most: none
 _NOBODY: IntArray = np.zeros(0, dtype=np.int64)  # acts at a given load
@@ -175,13 +176,23 @@ class TapePoint:
 
     @cached_property
     def shared(self) -> list[int]:
-        """Numbers of the conditions of other acting pairs that vanish with that of the event."""
-        found, known = [], self.conditions
-        for pair in self.acting[self.acting != self.event.pair]:
-            own = np.flatnonzero((known.pair == pair) & (known.rate < 0.0))
-            if len(own):
-                found.append(int(own[np.argmin(np.abs(known.value[own] / known.rate[own]))]))
-        return found
+        """Numbers of the conditions of acting pairs that vanish with that of the event; in space also of the same pair.
+
+        One that sticks may come to both facets that meet in a corner of its polygon.
+        """
+        in_space = self.states.codes is None
+        if len(self.acting) == 1 and not in_space:
+            return []
+        known, found = self.conditions, list[int]()
+        falls = known.rate < -GRAZES * self.fastest
+        vanish = falls & in_space & (np.abs(known.value) <= _VANISHES * (self.system.law.scale or 1.0))
+        for pair in self.acting:
+            own = np.flatnonzero((known.pair == pair) & falls)
+            if pair != self.event.pair and len(own):
+                vanish[own[np.argmin(np.abs(known.value[own] / known.rate[own]))]] = True
+            found += own[vanish[own]].tolist()
+        number = known.number(self.event)
+        return [k for k in found if k != number]
 
 
 def factors_of(points: Sequence[TapePoint]) -> tuple[list[str], Array]:

@@ -68,7 +68,7 @@ def on_edge(point: TapePoint) -> list[int]:
     if point.quiet is not None or point.at_rest:
         return []
     if point.at_event:
-        return point.shared if len(point.acting) > 1 else []
+        return point.shared
     return np.flatnonzero(np.abs(point.conditions.value) <= ZERO * (point.system.law.scale or 1.0)).tolist()
 
 
