@@ -363,8 +363,8 @@ class DirectionalDerivative:
         for _, shortening in self._locks:
             shortening.refuse_by_nodes(what)
         if why := self._shared.why_parted():
-            words = f"{why}: derivatives node by node may have two sides there; profile(contact, change) and"
-            raise InputError(f"{words} shape(motion) know what is varied together", where=(what,))
+            words = f"{why}: derivatives node by node may have two sides there; profile_sides(contact, change) and"
+            raise InputError(f"{words} shape_sides(motion) know both of what is varied together", where=(what,))
         for tied, together in self._ties:
             if np.abs(together._by_gaps()).max() > _TWO_SIDES * np.abs(self._by_gaps()).max():
                 words = f"{tied.words}: derivatives node by node have two sides; profile_sides(contact, change) and"
