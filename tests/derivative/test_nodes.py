@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.fem.node_work import Products, add_node_work
+from signorini.fem.displacement_products import Products
+from signorini.fem.node_work import add_node_work
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness
 from signorini.gallery.cylinder import zhu_cylinder
@@ -39,6 +40,7 @@ def check(solution, output, tolerance=1e-8):
 FAMILIES = {
     "quad": ("plane strain", lambda: sg.rectangle(nx=2, ny=2, width=2.0, origin=(1.0, 0.0))),
     "around": ("axisymmetric", lambda: sg.rectangle(nx=2, ny=1, width=2.0, origin=(1.0, 0.0))),
+    "twist": ("axisymmetric twist", lambda: sg.rectangle(nx=2, ny=1, width=2.0, origin=(1.0, 0.0))),
     "hexahedron": ("", lambda: sg.box(x=[0.0, 1.0], y=[0.0, 1.0], z=[0.0, 0.5, 1.0])),
 }
 
@@ -60,6 +62,36 @@ def test_the_work_of_stresses_by_the_place_of_every_node(family, formulation):
         for step in (1e-6, -1e-6)
     )
     assert float(np.vdot(found, motion)) == pytest.approx((high - low) / 2e-6, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("kind", "cells"),
+    [
+        *(("plane stress", cells) for cells in ("triangle", "quad8")),
+        *((f"axisymmetric{twist}", cells) for cells in ("quad", "triangle6") for twist in ("", " twist")),
+        *(("3d", cells) for cells in ("tetra", "hexahedron20")),
+    ],
+)
+def test_the_work_of_many_displacements_is_the_sum_of_their_works(kind, cells):
+    """Few go through slopes, many through products of all dofs of a cell; both bodies have more cells than lanes."""
+    if kind == "3d":
+        one, beside = (
+            sg.box(x=np.linspace(low, low + 1.0, 6), y=[0, 1, 2], z=[0, 1, 2], cells=cells) for low in (0, 3)
+        )
+    else:
+        one, beside = (sg.rectangle(nx=9, ny=8, origin=(low, 0.0), cells=cells) for low in (1.0, 3.0))
+    mesh, random = sg.join({"one": one, "beside": beside}), np.random.default_rng(1)
+    soft = sg.Orthotropic(E1=90.0, E2=40.0, E3=50.0, nu12=0.3, nu13=0.2, nu23=0.1, G12=20.0, G13=25.0, G23=15.0)
+    bodies = [sg.Body("one", sg.Elastic(E=900.0, nu=0.3)), sg.Body("beside", soft)]
+    model = sg.Model(mesh, bodies=bodies, kind=kind)
+    space = make_space(mesh, kind=kind)
+    count = space.blocks[0].cells.shape[1] + 1
+    w, u = random.standard_normal((2, space.number_of_dofs, count))
+    many, each = np.zeros_like(mesh.points), np.zeros_like(mesh.points)
+    add_node_work(many, space, model, Products.of(w, u))
+    for k in range(count):
+        add_node_work(each, space, model, Products.of(w[:, k, None], u[:, k, None]))
+    assert each == pytest.approx(many, rel=0, abs=1e-12 * np.abs(many).max())
 
 
 @pytest.mark.slow

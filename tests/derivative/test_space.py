@@ -4,6 +4,7 @@
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
 import pytest
 
 import signorini as sg
@@ -103,6 +104,17 @@ def test_bodies_that_twist(parameter):
         sg.stress("shaft", top, "xx"),
     ]
     check(model, solution, outputs, parameter)
+
+
+def test_a_shape_of_bodies_that_twist_in_one_increment():
+    """Of so few points cells tell what moving their nodes changes: the shear across radii, too."""
+    model = twisted_rig()
+    model = replace(model, steps=[sg.Step(scale={"pull": 1.0}, increments=1)])
+    output, motion = sg.pressure("joint").peak, model.mesh.points * np.array([0.02, 0.03])
+    moved = [replace(model.mesh, points=model.mesh.points + part * motion) for part in (-1e-5, 1e-5)]
+    low, high = (sg.solve(replace(model, mesh=mesh), tape=True).derivative(output).value for mesh in moved)
+    found = sg.solve(model, tape=True).derivative(output).shape(motion)
+    assert found == pytest.approx((high - low) / 2e-5, rel=1e-7)
 
 
 def test_dissipation_is_that_of_the_solution(solved):

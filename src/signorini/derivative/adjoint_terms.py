@@ -14,7 +14,8 @@ from signorini.derivative.conditions import PieceEvent
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
 from signorini.engine.prepare import Prepared
-from signorini.fem.node_work import Products, add_node_work
+from signorini.fem.displacement_products import Products
+from signorini.fem.node_work import add_node_work
 from signorini.law.bound import FrictionBound
 
 

@@ -29,8 +29,8 @@ from signorini.derivative.pair_change import PairChange
 from signorini.derivative.points import TapePoint
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
+from signorini.fem.displacement_products import Products
 from signorini.fem.kinematics import straining_groups
-from signorini.fem.node_work import Products
 
 _SUBSTITUTED_POINTS = 3  # points of a history at most: adjoint displacements are found one by one of so many
 

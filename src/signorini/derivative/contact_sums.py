@@ -24,7 +24,7 @@ from signorini.derivative.adjoint_terms import Adjoint
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.low_rank import state_blocks, term_blocks
 from signorini.derivative.points import TapePoint
-from signorini.fem.node_work import Products
+from signorini.fem.displacement_products import Products
 from signorini.fem.stiffness import reduced_stiffness
 from signorini.linalg.multifrontal import MultifrontalFactorisation
 from signorini.linalg.protocol import Reduced

@@ -27,9 +27,10 @@ from signorini.derivative.node_sides import SideSums
 from signorini.derivative.view import HistoryView
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
+from signorini.fem.displacement_products import Products
 from signorini.fem.foundation import make_springs
 from signorini.fem.loads import load_forces
-from signorini.fem.node_work import Products, add_node_work
+from signorini.fem.node_work import add_node_work
 from signorini.fem.space import ON_AXIS, Space
 from signorini.model.conditions import BODY_LOADS, Load
 from signorini.model.outputs import Output, Stress, WeightedSum

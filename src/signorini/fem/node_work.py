@@ -7,8 +7,10 @@ volumes by ``d_m N_b``, so that
     dW/dx_bm = sum_q dV [ (sum_k sig(u_k) : eps(w_k)) d_m N_b - sum_i Q_mi d_i N_b ],
     Q_mi = sum_k (d_m w_k . sig(u_k)_i + d_m u_k . sig(w_k)_i),
 
-exactly as it is integrated: Eshelby's energy-momentum tensor. Bodies of revolution add what radii do. Cells with
-internal modes or a mean dilatation are differentiated by differences, all cells at once, a node of each at a time.
+exactly as it is integrated: Eshelby's energy-momentum tensor. Bodies of revolution add what radii do. Cells of one
+material stand side by side, along the last axis of arrays: the innermost loops are over them, as vector instructions.
+Cells with internal modes or a mean dilatation are differentiated by differences, all cells at once, a node of each at a
+time.
 
 References
 ----------
@@ -18,51 +20,21 @@ Eshelby (1975), The elastic energy-momentum tensor, Journal of Elasticity 5:321.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.compilation import kernel, part
-from signorini.fem._kernels import gradients_at
+from signorini.fem.displacement_products import Products, no_places, products_of_cell, products_of_cells
 from signorini.fem.elasticity import elasticities, law_tensor
-from signorini.fem.kinematics import Group, straining_groups
-from signorini.fem.measure import measure_of_cells
+from signorini.fem.kinematics import Group, of_bodies, straining_groups
 from signorini.fem.space import Space
-from signorini.fem.stiffness import stiffness
+from signorini.fem.stiffness import cells_of, stiffness
 from signorini.model.model import Model
 
 _STEP = 1e-5  # of the size of a cell: differences of its stiffness are right to 1e-10 then
-
-
-class Products(NamedTuple):
-    """Sums of products of displacements, of two dofs of a cell: of columns, and of others known as sums alone.
-
-    Attributes
-    ----------
-    w, u : (dofs, k) displacements, k of either
-    free : (dofs,) places of dofs in the sums; negative where there is none
-    indptr, indices, data : of the sums, by rows; those of both triangles in either or in one
-    """
-
-    w: Array
-    u: Array
-    free: IntArray
-    indptr: IntArray
-    indices: IntArray
-    data: Array
-
-    @classmethod
-    def of(cls, w: Array, u: Array) -> Products:
-        """Of columns alone.
-
-        Parameters
-        ----------
-        w, u : (dofs, k)
-        """
-        none = np.zeros(0, dtype=np.int64)
-        return cls(np.ascontiguousarray(w), np.ascontiguousarray(u), np.full(len(w), -1), none, none, np.zeros(0))
+_LANES = 64  # cells side by side: all that is known of them stays in the cache that is next to the core
+_REVOLVED = np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, -1]])  # derivatives with twist by those without
 
 
 def add_node_work(found: Array, space: Space, model: Model, products: Products) -> None:
@@ -74,19 +46,21 @@ def add_node_work(found: Array, space: Space, model: Model, products: Products) 
     space, model : the mesh and what is on it
     products : of displacements w and u
     """
-    d, c = space.dimension, space.components
-    law = law_tensor(elasticities(model), hoop=model.axisymmetric)
-    terms = np.argwhere((law != 0.0).any(axis=0))
-    entries, values = np.column_stack([terms[:, 0], terms[:, 2], terms[:, 1], terms[:, 3]]), law[:, *terms.T]
-    for group in straining_groups(space, model):
-        if group.formulation != "standard":
-            np.add.at(found, group.cells, _by_differences(space, model, group, products))
-            continue
-        places = partial(np.einsum, "qk,mki->mqi", group.block.values, space.mesh.points[group.cells])
-        weights = measure_of_cells(model, places, group.numbers) * group.block.weights
-        of_cells = (np.ascontiguousarray(group.cells), group.body, weights)
-        block = (group.block.values, np.ascontiguousarray(group.block.gradients))
-        _add(found, space.mesh.points, of_cells, block, (entries, np.ascontiguousarray(values)), products, c, d)
+    c, law = space.components, law_tensor(elasticities(model), hoop=model.axisymmetric, twist=model.twists)
+    if model.twists:
+        law = np.einsum("nrisj,ik,jl->nrksl", law, _REVOLVED, _REVOLVED)
+    every = list(straining_groups(space, model))
+    for body in range(len(model.bodies)):
+        entries = np.argwhere(law[body])
+        of_law = (entries, law[body][tuple(entries.T)])
+        for group in of_bodies(every, np.arange(len(model.bodies)) == body):
+            if group.formulation != "standard":
+                np.add.at(found, group.cells, _by_differences(space, model, group, products))
+                continue
+            cells = cells_of(space, model, group)
+            at_points = (cells.shape_values, np.ascontiguousarray(cells.shape_gradients))
+            of_cells = (cells.nodes, cells.measure * cells.weights)
+            _add(found, space.mesh.points, of_cells, at_points, of_law, products, (c, law.shape[2]))
 
 
 def _by_differences(space: Space, model: Model, group: Group, products: Products) -> Array:
@@ -96,7 +70,7 @@ def _by_differences(space: Space, model: Model, group: Group, products: Products
     apart = replace(group, block=alone)
     places = space.mesh.points[block.cells]
     size = np.ptp(places, axis=1).max(axis=1)
-    sums = _of_cells(np.ascontiguousarray(group.cells), space.components, products)
+    sums = products_of_cells(np.ascontiguousarray(group.cells), space.components, products)
     found = np.empty((*group.cells.shape, d))
     for a, i in np.ndindex(found.shape[1:]):
         step = np.zeros_like(places)
@@ -110,187 +84,221 @@ def _by_differences(space: Space, model: Model, group: Group, products: Products
     return found
 
 
-@part(fastmath={"reassoc", "contract"})
-def _products(cell: IntArray, c: int, products: Products, place: IntArray, M: Array) -> None:
-    """Overwrite M, (k c, k c), by the sums of products of all displacements of the nodes of a cell.
-
-    Parameters
-    ----------
-    cell, c : its nodes, and components of a displacement
-    products : of displacements
-    place : (rows of the sums,) scratch, -1 everywhere
-    M : overwritten
-    """
-    w, u, free, indptr, indices, data = products
-    columns, size, shared = w.shape[1], len(cell) * c, False
-    for i in range(size):
-        row = free[cell[i // c] * c + i % c]
-        if row >= 0:
-            shared = shared or place[row] >= 0  # dofs that move together
-            place[row] = i
-    for i in range(size):
-        row = cell[i // c] * c + i % c
-        for j in range(size):
-            other = cell[j // c] * c + j % c
-            M[i, j] = 0.0
-            for k in range(columns):
-                M[i, j] += w[row, k] * u[other, k]
-        if free[row] < 0:
-            continue
-        for p in range(indptr[free[row]], indptr[free[row] + 1]):
-            if place[indices[p]] < 0:
-                continue
-            if not shared:
-                M[i, place[indices[p]]] += data[p]
-                continue
-            for j in range(size):
-                if free[cell[j // c] * c + j % c] == indices[p]:
-                    M[i, j] += data[p]
-    for i in range(size):
-        if free[cell[i // c] * c + i % c] >= 0:
-            place[free[cell[i // c] * c + i % c]] = -1
-
-
-@part()
-def _no_places(products: Products) -> IntArray:
-    """(rows of the sums,) -1."""
-    return np.full(max(0, len(products.indptr) - 1), -1)
-
-
-@kernel()
-def _of_cells(cells: IntArray, c: int, products: Products) -> Array:
-    """(m, k c, k c) Sums of products of all displacements of the nodes of cells (m, k).
-
-    Parameters
-    ----------
-    cells, c : their nodes, and components of a displacement
-    products : of displacements
-    """
-    size = cells.shape[1] * c
-    found, place = np.empty((len(cells), size, size)), _no_places(products)
-    for t in range(len(cells)):
-        _products(cells[t], c, products, place, found[t])
-    return found
-
-
-@kernel()
+@kernel(fastmath={"contract"})
 def _add(
     found: Array,
     points: Array,
-    of_cells: tuple[IntArray, IntArray, Array],
+    of_cells: tuple[IntArray, Array],
     block: tuple[Array, Array],
     law: tuple[IntArray, Array],
     products: Products,
-    c: int,
-    d: int,
+    slopes: tuple[int, int],
 ) -> None:
-    """Add what cells of the standard formulation have, see the module.
+    """Add what cells of the standard formulation and of one material have, see the module.
 
     Parameters
     ----------
     found : (nodes, d) added to
     points : (nodes, d)
-    of_cells : (m, k) nodes, (m,) materials and (m, q) weights times thickness or circumference
+    of_cells : (m, k) nodes, and (m, q) weights times thickness or circumference
     block : (q, k) shape functions and (q, k, d) their reference gradients
-    law : (t, 4) numbers r, s, i, j and (n, t) values of ``C_risj``
+    law : (t, 4) numbers r, i, s, j and (t,) values of ``C_risj``
     products : of displacements
-    c, d : components of a displacement and of a place
+    slopes : numbers c of components of a displacement and e of slopes of each, around an axis ``w / r`` among them
     """
-    cells, material, weights = of_cells
+    cells, weights = of_cells
     values, gradients = block
-    entries, moduli = law
-    nodes, hoop = cells.shape[1], moduli.shape[1] > 0 and entries[:, 2].max() == d
-    e = d + 1 if hoop else d
-    summed = len(products.data) > 0 or products.w.shape[1] > nodes  # of few columns slopes are cheaper than products
-    M, g, x = np.empty((nodes * c, nodes * c)), np.empty(nodes * e), np.empty((nodes, d))
-    place = _no_places(products)
-    J, I = np.eye(3), np.empty((3, 3))  # noqa: E741
-    T, H, Q = np.empty((c, e, nodes * c)), np.empty((c, e, c, e)), np.empty((d, e))
-    for t in range(len(cells)):
-        if summed:
-            _products(cells[t], c, products, place, M)
-        for a in range(nodes):
-            for m in range(d):
-                x[a, m] = points[cells[t, a], m]
-        for q in range(len(gradients)):
-            volume = abs(gradients_at(x, gradients[q], J, I, g, e)) * weights[t, q]
-            if hoop:
-                radius = 0.0
-                for a in range(nodes):
-                    radius += values[q, a] * x[a, 0]
-                for a in range(nodes):
-                    g[a * e + d] = values[q, a] / radius
-            if summed:
-                _slopes(M, g, nodes, T, H)
-            else:
-                _slopes_of_columns(cells[t], products, g, T, H)
-            work = 0.0
-            for m in range(d):
-                for i in range(e):
-                    Q[m, i] = 0.0
-            for n in range(len(entries)):
-                r, s, i, j = entries[n, 0], entries[n, 1], entries[n, 2], entries[n, 3]
-                modulus = moduli[material[t], n]
-                work += modulus * H[r, i, s, j]
+    c, e = slopes
+    nodes, d, columns = cells.shape[1], points.shape[1], products.w.shape[1]
+    summed = len(products.data) > 0 or columns > nodes  # of few columns slopes are cheaper than products
+    size, columns = (nodes * c, 0) if summed else (0, columns)
+    place, M = no_places(products), np.empty((size, size))
+    every, T = np.empty((size, size, _LANES)), np.empty((c, e, size, _LANES))
+    w, u = np.empty((columns, nodes, c, _LANES)), np.empty((columns, nodes, c, _LANES))
+    S, P, H = np.empty((2, c, e, _LANES)), np.empty((2, c, e, _LANES)), np.empty((c, e, c, e, _LANES))
+    Q, volume, work = np.empty((e, e, _LANES)), np.empty(_LANES), np.empty(_LANES)
+    x, force = np.empty((nodes, d, _LANES)), np.empty((nodes, d, _LANES))
+    J, I, g = np.empty((3, 3, _LANES)), np.empty((3, 3, _LANES)), np.empty((nodes, e, _LANES))  # noqa: E741
+    for first in range(0, len(cells), _LANES):
+        for lane in range(_LANES):
+            cell = cells[min(first + lane, len(cells) - 1)]  # behind the last one it stands again, for nothing
+            for a in range(nodes):
                 for m in range(d):
-                    if i < d:
-                        Q[m, i] += modulus * H[r, m, s, j]
-                    if j < d:
-                        Q[m, j] += modulus * H[r, i, s, m]
-                if hoop:
-                    Q[0, d] += modulus * H[r, i, s, j] * ((i == d) + (j == d))
+                    x[a, m, lane], force[a, m, lane] = points[cell[a], m], 0.0
+                for r in range(c):
+                    for k in range(columns):
+                        w[k, a, r, lane] = products.w[cell[a] * c + r, k]
+                        u[k, a, r, lane] = products.u[cell[a] * c + r, k]
+            if summed:
+                products_of_cell(cell, c, products, place, M)
+                for i in range(size):
+                    for j in range(size):
+                        every[i, j, lane] = M[i, j]
+        for q in range(len(gradients)):
+            _gradients(x, values[q], gradients[q], J, I, g, volume)
+            for lane in range(_LANES):
+                volume[lane] *= weights[min(first + lane, len(cells) - 1), q]
+            if summed:
+                _of_products(every, g, law, T, H, Q)
+            else:
+                _of_columns(w, u, g, law, S, P, Q)
+            _pull(Q, volume, g, work, force)
+        for lane in range(min(_LANES, len(cells) - first)):
             for b in range(nodes):
                 for m in range(d):
-                    part = work * g[b * e + m]
-                    for i in range(d):
-                        part -= Q[m, i] * g[b * e + i]
-                    if hoop and m == 0:
-                        part += (work - Q[0, d]) * g[b * e + d]
-                    found[cells[t, b], m] += volume * part
+                    found[cells[first + lane, b], m] += force[b, m, lane]
 
 
-@part()
-def _slopes_of_columns(cell: IntArray, products: Products, g: Array, T: Array, H: Array) -> None:
-    """Overwrite H, (c, e, c, e), by the products of all slopes of both displacements of a cell, from their columns.
+@part(fastmath={"contract"})
+def _gradients(x: Array, values: Array, reference: Array, J: Array, I: Array, g: Array, volume: Array) -> None:  # noqa: E741
+    """Overwrite the gradients of the shape functions at one point of every cell, and ``|det J|``.
 
     Parameters
     ----------
-    cell : (k,) nodes
-    products : of displacements, without sums
-    g : (k e,) gradients of shape functions
-    T : scratch, as of `_slopes`
-    H : overwritten
+    x : (k, d, lanes) nodes
+    values, reference : (k,) shape functions, and (k, d) their reference gradients
+    J, I : (3, 3, lanes) scratch for the Jacobian matrix, which in the plane the last axis is added to, and its inverse
+    g, volume : (k, e, lanes) and (lanes,) overwritten
     """
-    c, e = H.shape[:2]
-    for k in range(products.w.shape[1]):
-        for r in range(c):
-            for i in range(e):
-                slope, other = 0.0, 0.0
-                for a in range(len(cell)):
-                    slope += g[a * e + i] * products.w[cell[a] * c + r, k]
-                    other += g[a * e + i] * products.u[cell[a] * c + r, k]
-                T[r, i, 0], T[r, i, 1] = slope, other
-        for r in range(c):
-            for i in range(e):
-                for s in range(c):
-                    for j in range(e):
-                        H[r, i, s, j] = (H[r, i, s, j] if k else 0.0) + T[r, i, 0] * T[s, j, 1]
+    nodes, d = reference.shape
+    for r in range(3):
+        for s in range(3):
+            for lane in range(_LANES):
+                J[r, s, lane] = 1.0 if r == s and r >= d else 0.0
+    for a in range(nodes):
+        for r in range(d):
+            for s in range(d):
+                for lane in range(_LANES):
+                    J[r, s, lane] += x[a, r, lane] * reference[a, s]
+    volume[:] = 0.0
+    for r in range(d):
+        for s in range(d):
+            r1, r2, s1, s2 = (r + 1) % 3, (r + 2) % 3, (s + 1) % 3, (s + 2) % 3
+            for lane in range(_LANES):
+                I[r, s, lane] = J[r1, s1, lane] * J[r2, s2, lane] - J[r1, s2, lane] * J[r2, s1, lane]
+    for s in range(d):
+        for lane in range(_LANES):
+            volume[lane] += J[0, s, lane] * I[0, s, lane]
+    for lane in range(_LANES):
+        J[0, 0, lane], volume[lane] = 1.0 / volume[lane], abs(volume[lane])
+    g[:] = 0.0
+    for r in range(d):
+        for s in range(d):
+            for lane in range(_LANES):
+                I[r, s, lane] *= J[0, 0, lane]
+            for a in range(nodes):
+                for lane in range(_LANES):
+                    g[a, r, lane] += reference[a, s] * I[r, s, lane]
+    if g.shape[1] > d:
+        for lane in range(_LANES):
+            J[0, 0, lane] = 0.0
+        for a in range(nodes):
+            for lane in range(_LANES):
+                J[0, 0, lane] += values[a] * x[a, 0, lane]
+        for a in range(nodes):
+            for lane in range(_LANES):
+                g[a, d, lane] = values[a] / J[0, 0, lane]
 
 
-@part()
-def _slopes(M: Array, g: Array, nodes: int, T: Array, H: Array) -> None:
-    """Overwrite H, (c, e, c, e), by the products of all slopes of both displacements at a point; T is scratch."""
-    c, e = H.shape[:2]
+@part(fastmath={"contract"})
+def _of_columns(w: Array, u: Array, g: Array, law: tuple[IntArray, Array], S: Array, P: Array, Q: Array) -> None:
+    """Overwrite Q, (e, e, lanes), by the products of slopes of displacements with the stresses of the other one.
+
+    Parameters
+    ----------
+    w, u : (columns, k, c, lanes) displacements of the nodes
+    g : (k, e, lanes) gradients of shape functions
+    law : see `_add`
+    S, P : (2, c, e, lanes) scratch for the slopes of one column of both, and for the stresses of the other one
+    Q : overwritten
+    """
+    entries, moduli = law
+    c, e = S.shape[1:3]
+    Q[:] = 0.0
+    for k in range(len(w)):
+        S[:] = 0.0
+        P[:] = 0.0
+        for a in range(len(g)):
+            for r in range(c):
+                for i in range(e):
+                    for lane in range(_LANES):
+                        S[0, r, i, lane] += g[a, i, lane] * w[k, a, r, lane]
+                        S[1, r, i, lane] += g[a, i, lane] * u[k, a, r, lane]
+        for n in range(len(entries)):
+            r, i, s, j = entries[n, 0], entries[n, 1], entries[n, 2], entries[n, 3]
+            for lane in range(_LANES):
+                P[0, r, i, lane] += moduli[n] * S[1, s, j, lane]
+                P[1, r, i, lane] += moduli[n] * S[0, s, j, lane]
+        for r in range(c):
+            for m in range(e):
+                for i in range(e):
+                    for lane in range(_LANES):
+                        Q[m, i, lane] += S[0, r, m, lane] * P[0, r, i, lane] + S[1, r, m, lane] * P[1, r, i, lane]
+
+
+@part(fastmath={"contract"})
+def _of_products(M: Array, g: Array, law: tuple[IntArray, Array], T: Array, H: Array, Q: Array) -> None:
+    """Overwrite Q as `_of_columns` does, from the sums of products of displacements.
+
+    Parameters
+    ----------
+    M : (k c, k c, lanes) sums of products of displacements of the nodes
+    g : (k, e, lanes) gradients of shape functions
+    law : see `_add`
+    T, H : (c, e, k c, lanes) and (c, e, c, e, lanes) scratch for products of slopes with displacements, and with slopes
+    Q : overwritten
+    """
+    entries, moduli = law
+    c, e = T.shape[:2]
+    T[:] = 0.0
+    H[:] = 0.0
+    Q[:] = 0.0
     for r in range(c):
         for i in range(e):
-            for column in range(nodes * c):
-                total = 0.0
-                for a in range(nodes):
-                    total += g[a * e + i] * M[a * c + r, column]
-                T[r, i, column] = total
+            for a in range(len(g)):
+                for column in range(T.shape[2]):
+                    for lane in range(_LANES):
+                        T[r, i, column, lane] += g[a, i, lane] * M[a * c + r, column, lane]
             for s in range(c):
                 for j in range(e):
-                    total = 0.0
-                    for b in range(nodes):
-                        total += g[b * e + j] * T[r, i, b * c + s]
-                    H[r, i, s, j] = total
+                    for b in range(len(g)):
+                        for lane in range(_LANES):
+                            H[r, i, s, j, lane] += g[b, j, lane] * T[r, i, b * c + s, lane]
+    for n in range(len(entries)):
+        r, i, s, j = entries[n, 0], entries[n, 1], entries[n, 2], entries[n, 3]
+        for m in range(e):
+            for lane in range(_LANES):
+                Q[m, i, lane] += moduli[n] * H[r, m, s, j, lane]
+                Q[m, j, lane] += moduli[n] * H[r, i, s, m, lane]
+
+
+@part(fastmath={"contract"})
+def _pull(Q: Array, volume: Array, g: Array, work: Array, force: Array) -> None:
+    """Add to force, (k, d, lanes), what Eshelby's tensor, the work less Q, does at the nodes.
+
+    Parameters
+    ----------
+    Q, volume : (e, e, lanes), and (lanes,) of the points
+    g : (k, e, lanes) gradients of shape functions
+    work : (lanes,) scratch
+    force : added to
+    """
+    nodes, d = force.shape[:2]
+    work[:] = 0.0
+    for m in range(len(Q)):
+        for lane in range(_LANES):
+            work[lane] += 0.5 * Q[m, m, lane]
+    for m in range(len(Q)):
+        for lane in range(_LANES):
+            Q[m, m, lane] -= work[lane]
+        for i in range(len(Q)):
+            for lane in range(_LANES):
+                Q[m, i, lane] *= volume[lane]
+    for b in range(nodes):
+        for m in range(d):
+            for i in range(d):
+                for lane in range(_LANES):
+                    force[b, m, lane] -= Q[m, i, lane] * g[b, i, lane]
+        if len(Q) > d:
+            for lane in range(_LANES):
+                force[b, 0, lane] -= Q[d, d, lane] * g[b, d, lane]

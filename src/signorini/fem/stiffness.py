@@ -71,14 +71,20 @@ def _assembled(space: Space, model: Model, groups: Iterable[Group], D: Array, bu
     """(dofs, dofs) Of groups of cells under laws of the bodies, (b, 4, 4) or (b, 6, 6), with bulk moduli (b,)."""
     law = law_tensor(D, hoop=model.axisymmetric, twist=model.twists)
     every = list(groups)
-    blocks = of_each(every, partial(_cells, space, model))
+    blocks = of_each(every, partial(cells_of, space, model))
     K = assemble(space.mesh.points, blocks, law, bulk=bulk, axisymmetric=model.axisymmetric)
     K.resize((space.number_of_dofs, space.number_of_dofs))  # rigid obstacles have no stiffness
     return K
 
 
-def _cells(space: Space, model: Model, group: Group) -> Cells:
-    """What is assembled of a group of cells."""
+def cells_of(space: Space, model: Model, group: Group) -> Cells:
+    """What is integrated over a group of cells.
+
+    Parameters
+    ----------
+    space, model : the mesh and what is on it
+    group : cells of one kind and formulation
+    """
     block = group.block
 
     def places() -> Array:
