@@ -154,13 +154,18 @@ class Condensed:
         if not len(self.dofs):
             return reduced.expand(reduced.load)
 
-        def travel(moved: Array) -> Array:
-            beyond = h.T - self.compliance.T * r.T - offset.T - moved.reshape(h.shape).T  # directions last
-            left = (self.root[:, None] * beyond).T.reshape(moved.shape)
-            motion: Array = scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ left)
-            return motion
+        beyond = self.beyond_forces(h, r, offset)
+        return self.response.displacement(reduced, r.reshape(beyond.shape), lambda moved: self.travel(beyond - moved))
 
-        return self.response.displacement(reduced, r.reshape(-1, *r.shape[2:]), travel)
+    def beyond_forces(self, h: Array, r: Array, offset: Array) -> Array:
+        """(d a,) Of relative displacements ``h - C r - h_0``, what the bodies do; for k loads at once (d a, k).
+
+        Parameters
+        ----------
+        h, r, offset : (d, a) or (d, a, k), as of `displacement`
+        """
+        beyond: Array = (h.T - self.compliance.T * r.T - offset.T).T  # directions last
+        return beyond.reshape(-1, *r.shape[2:])
 
     def on_springs(self, f: Array) -> Array:
         """Free displacements (z,) under loads (z,) where springs of stiffness D hold every pair, closed or not.

@@ -24,6 +24,7 @@ _RANK = 1e-13  # of the largest combination: one that does not matter
 _ALIKE = 1e-11  # of the largest state: what is left of a state that is a combination of others
 
 _COLUMNS = 32  # displacements that are found at once: their arrays stay in memory that is there already
+_PAIRS = _COLUMNS // 2  # of adjoint and actual displacements
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -87,12 +88,13 @@ def state_columns(points: Sequence[TapePoint]) -> Iterator[StateColumns]:
     rank = max(1, int((left > _ALIKE * left[0]).sum()))
     shares = np.zeros((rank, len(points)))
     shares[:, order] = scipy.linalg.solve_triangular(R[:rank, :rank], R[:rank])
+    none = np.zeros((system.directions, system.pairs, 0)), np.zeros((system.motions, 0)), np.zeros(())
     for begin in range(0, rank, _COLUMNS):
         some = order[begin : begin + _COLUMNS][: rank - begin]
         h, r, known, offset = (np.moveaxis(part[some], 0, -1) for part in parts)
         factors = dict(zip(names, known[1:], strict=True))
         yield StateColumns(
-            displacement=_displacement(system, h, r, offset, factors),
+            displacement=_substituted(system, none, (h, r, offset), factors)[1],
             forces=r.reshape(-1, len(some)),
             one=known[0],
             factors=factors,
@@ -150,15 +152,16 @@ def combinations_of(points: Sequence[TapePoint], own: Sequence[int], adjoint: Ad
     left = [*term_blocks(system, own, adjoint), np.array([[float(i == at) for at in pulled] for i in own])]
     first, second = _largest(left, right)
     count = first[0].shape[-1]
-    for begin in range(0, count, _COLUMNS):
-        motion, resultant, pulls = (part[..., begin : begin + _COLUMNS] for part in first)
-        h, r, known, offset = (part[..., begin : begin + _COLUMNS] for part in second)
+    for begin in range(0, count, _PAIRS):
+        motion, resultant, pulls = (part[..., begin : begin + _PAIRS] for part in first)
+        h, r, known, offset = (part[..., begin : begin + _PAIRS] for part in second)
         factors = dict(zip(names, known[1:], strict=True))
         pulling = sum((np.outer(adjoint.pulled[i], row) for i, row in zip(pulled, pulls, strict=True)), np.zeros(()))
+        w, u = _substituted(system, (motion, resultant, pulling), (h, r, offset), factors)
         yield Combination(
             system=system,
-            adjoint=_adjoint(system, motion, resultant, pulling),
-            displacement=_displacement(system, h, r, offset, factors),
+            adjoint=w,
+            displacement=u,
             motion=motion,
             forces=r,
             one=known[0],
@@ -196,40 +199,43 @@ def _blocks(rows: Array, like: list[Array], sizes: list[float]) -> list[Array]:
     ]
 
 
-def _adjoint(system: InterfaceSystem, motion: Array, resultant: Array, pulling: Array) -> Array:
-    """(dofs, k) Displacements ``K^-1 (B^T J + pull) + Z j``.
+def _substituted(
+    system: InterfaceSystem,
+    adjoint: tuple[Array, Array, Array],
+    states: tuple[Array, Array, Array],
+    factors: dict[str, Array],
+) -> tuple[Array, Array]:
+    """(dofs, m) Adjoint displacements ``K^-1 (B^T J + pull) + Z j``, and (dofs, k) displacements, substituted together.
 
     Parameters
     ----------
     system : the interface
-    motion, resultant : (d, a, k) J and (rigid motions, k) j
-    pulling : (z, k) ``K^-1`` of what pulls on free displacements, or a zero
+    adjoint : (d, a, m) J, (rigid motions, m) j, and (z, m) ``K^-1`` of what pulls on free displacements, or a zero
+    states, factors : (d, a, k) motions, forces and offsets, and (k,) by load
     """
-    T, condensed, k = system.prepared.constraints.transform, system.condensed, motion.shape[-1]
-    still = condensed.reduce(np.zeros((T.shape[1], k)))
-    moved = condensed.response.displacement(still, motion.reshape(-1, k), lambda _: resultant)
-    return np.asarray(T @ (moved + pulling))
-
-
-def _displacement(system: InterfaceSystem, h: Array, r: Array, offset: Array, factors: dict[str, Array]) -> Array:
-    """(dofs, k) Displacements under motions h, forces r and offsets, (d, a, k), and load factors."""
-    prepared, condensed, k = system.prepared, system.condensed, h.shape[-1]
+    prepared, condensed, (motion, resultant, pulling), r = system.prepared, system.condensed, adjoint, states[1]
+    T, m, k = prepared.constraints.transform, motion.shape[-1], r.shape[-1]
     names = [name for name, factor in factors.items() if factor.any()]
     each = np.array([factors[name] for name in names]).reshape(-1, k)
-    still = condensed.reduce(np.zeros((prepared.constraints.transform.shape[1], k)))
+    still, beyond = condensed.reduce(np.zeros((T.shape[1], m + k))), condensed.beyond_forces(*states)
     load = still.load.copy()
     for name, factor in zip(names, each, strict=True):
-        load += np.outer(system.unit(name).load, factor)
+        load[:, m:] += np.outer(system.unit(name).load, factor)
 
     def expand(kept: Array) -> Array:
         """Loads are substituted back once, not for every column."""
         moved = still.expand(kept)
+        moved[:, :m] += pulling
         if names:
-            moved += np.stack([system.inside(name) for name in names], axis=1) @ each
+            moved[:, m:] += np.stack([system.inside(name) for name in names], axis=1) @ each
         return moved
 
-    found = prepared.constraints.transform @ condensed.displacement(Reduced(load, expand), h, r, offset)
+    def travel(moved: Array) -> Array:
+        return np.concatenate([resultant, condensed.travel(beyond - moved[:, m:])], axis=1)
+
+    forces = np.concatenate([motion.reshape(len(beyond), m), r.reshape(beyond.shape)], axis=1)
+    found = T @ condensed.response.displacement(Reduced(load, expand), forces, travel)
     for name, factor in factors.items():
         if name in prepared.constraints.prescribed:
-            found += np.outer(prepared.constraints.prescribed[name], factor)
-    return np.asarray(found)
+            found[:, m:] += np.outer(prepared.constraints.prescribed[name], factor)
+    return found[:, :m], found[:, m:]
