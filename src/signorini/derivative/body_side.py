@@ -18,7 +18,7 @@ from signorini.fem.kinematics import of_bodies, straining_groups
 from signorini.fem.loads import nodal_loads
 from signorini.fem.space import Space
 from signorini.fem.stiffness import stiffness, stiffness_change
-from signorini.fem.supports import Constraints, make_constraints
+from signorini.fem.supports import make_constraints
 from signorini.fem.thermal import thermal_forces
 from signorini.interface.first_tangents import without_jumps
 from signorini.interface.interface import Interface, make_interface
@@ -32,14 +32,14 @@ class BodySide:
 
     Attributes
     ----------
+    prepared : the model between both sides of the parameter
     model, space : what is on the mesh, and the mesh
-    middle : the pairs between both sides of the parameter
     body : number of the body whose material the parameter is of; None where the parameter moves nodes
     """
 
+    prepared: Prepared
     model: Model
     space: Space
-    middle: Interface
     body: int | None = None
 
     def stiffness_change(self, other: BodySide) -> sp.csr_array:
@@ -75,20 +75,19 @@ class BodySide:
     @cached_property
     def interface(self) -> Interface:
         """The pairs."""
-        return pairs_at(self.space, self.model, make_constraints(self.space, self.model), self.middle)
+        return pairs_at(self.prepared, self.space, self.model)
 
 
-def pairs_at(space: Space, model: Model, constraints: Constraints, middle: Interface) -> Interface:
-    """The pairs of a model where its nodes are.
+def pairs_at(prepared: Prepared, space: Space, model: Model) -> Interface:
+    """The pairs of a model where its nodes are, under the supports that it always has.
 
     Parameters
     ----------
+    prepared : the model as it is, whose first tangents go on
     space, model : of the bodies and their contacts
-    constraints : what supports hold: planes of symmetry
-    middle : the pairs where nodes were, whose tangents go on
     """
-    found = (sector_interface if model.cyclic_symmetries else make_interface)(space, model, constraints)
-    return without_jumps(found, middle)
+    found = (sector_interface if model.cyclic_symmetries else make_interface)(space, model, prepared.always)
+    return without_jumps(found, prepared.interface)
 
 
 def multiplier(prepared: Prepared, name: str) -> float:
@@ -114,7 +113,7 @@ def moved_side(prepared: Prepared, motion: Array) -> BodySide:
     """
     space, model = prepared.space, prepared.model
     moved = space.at(space.mesh.points + motion, space.displacement)
-    side = BodySide(model=model, space=moved, middle=prepared.interface)
+    side = BodySide(prepared=prepared, model=model, space=moved)
     if places_matter(model):
         here, there = (make_constraints(where, model) for where in (space, side.space))
         changed = abs(here.transform - there.transform).max() if here.transform.nnz else 0.0

@@ -9,7 +9,6 @@ from typing import Any
 from signorini.derivative.body_side import pairs_at
 from signorini.derivative.pair_change import PairChange
 from signorini.engine.prepare import Prepared
-from signorini.fem.supports import make_constraints
 from signorini.model.model import Model
 
 _STEP = 1e-4  # of a modulus: normals of tilted sides are smooth in it, differences right to a part in 1e8
@@ -55,9 +54,7 @@ class ModulusPairs:
 
     def _paired(self, body: int) -> PairChange:
         """What it changes, by pairing the sides at both of its values."""
-        space, model = self._prepared.space, self._prepared.model
-        always, middle = make_constraints(space, model), self._prepared.interface
-        low, high = (pairs_at(space, at, always, middle) for at in self.models(body))
+        low, high = (pairs_at(self._prepared, self._prepared.space, model) for model in self.models(body))
         return PairChange.between(low, high, self.step(body))
 
 

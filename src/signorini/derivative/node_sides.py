@@ -26,7 +26,6 @@ from signorini.derivative.view import HistoryView
 from signorini.errors import InputError
 from signorini.fem.boundary import Boundary, boundary
 from signorini.fem.space import Space
-from signorini.fem.supports import Constraints, make_constraints
 from signorini.interface.interface import Interface
 from signorini.model.outputs import Output
 
@@ -169,7 +168,7 @@ class SideSums:
         InputError
             Where others make pairs.
         """
-        found = pairs_at(at, self.view.model, self._constraints, self.view.interface)
+        found = pairs_at(self.view.points[-1].system.prepared, at, self.view.model)
         if not np.array_equal(found.node, self.view.interface.node):
             words = "nodes that move a little are paired otherwise; derivatives by nodes do not know that"
             raise InputError(words, where=("nodes",))
@@ -179,11 +178,6 @@ class SideSums:
     def shape(self) -> ShapeWeights:
         """What the output itself has of the shape of the sides."""
         return ShapeWeights.of(self.output, self.view)
-
-    @cached_property
-    def _constraints(self) -> Constraints:
-        """Planes of symmetry."""
-        return make_constraints(self.view.space, self.view.model)
 
     @cached_property
     def _dofs(self) -> IntArray:

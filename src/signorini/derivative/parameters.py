@@ -77,9 +77,10 @@ def change_of(prepared: Prepared, kind: str, name: str, seen: ModulusPairs) -> C
     material = model.bodies[body].material
     given = float(getattr(material, kind))
     step = _STEP if kind == "nu" else _STEP * (abs(given) or 1.0)
-    space, middle = prepared.space, prepared.interface
     low, high = (
-        BodySide(model=with_material(model, body, **{kind: given + part}), space=space, middle=middle, body=body)
+        BodySide(
+            prepared=prepared, model=with_material(model, body, **{kind: given + part}), space=prepared.space, body=body
+        )
         for part in (-step, step)
     )
     return BodyChange(prepared=prepared, low=low, high=high, step=step, tilts=kind == "E" and between_bodies(model))

@@ -45,6 +45,7 @@ class Examined:
 
     Attributes
     ----------
+    always : what supports hold that no step lets go: planes of symmetry of the pairs
     loads : name to nodal forces at factor 1, each (dofs,)
     parts, motions : connected pieces and their rigid motions, (dofs, motions of all parts)
     resisted : (motions, motions) what supports and foundations take of them, see `fem.rigid.resistance`
@@ -57,6 +58,7 @@ class Examined:
     model: Model
     space: Space
     constraints: Constraints
+    always: Constraints
     interface: Interface
     loads: Mapping[str, Array]
     parts: tuple[ConnectedBody, ...]
@@ -121,6 +123,7 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         model=model,
         space=space,
         constraints=constraints,
+        always=always,
         interface=interface,
         loads=loads,
         parts=parts,

@@ -118,6 +118,7 @@ def _examined(now: Prepared, model: Model) -> Examined:
         model=model,
         space=space,
         constraints=constraints,
+        always=always,
         interface=interface,
         loads={name: now.multiplied.get(name, 1.0) * forces for name, forces in nodal_loads(space, model).items()},
         parts=parts,
