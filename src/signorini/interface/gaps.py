@@ -57,11 +57,11 @@ def normal_gap(coupling: Coupling, nodes: IntArray, normals: Array, distance: Ar
     normals : (m, d) into the nonmortar body; a pair's own is that of the coupling
     distance : (m,) length
     """
-    vectors = np.zeros((coupling.forces[0].shape[1], normals.shape[1]))
-    vectors[nodes] = normals
-    vectors[coupling.nodes] = coupling.normals
-    vectors[nodes] *= distance[:, None]
-    seen = sum(force @ part for force, part in zip(coupling.forces, vectors.T, strict=True))
+    vectors = np.zeros((normals.shape[1], coupling.forces[0].shape[1]))
+    vectors[:, nodes] = normals.T
+    vectors[:, coupling.nodes] = coupling.normals.T
+    vectors[:, nodes] *= distance
+    seen = sum(force @ part for force, part in zip(coupling.forces, vectors, strict=True))
     return np.asarray(seen / coupling.area)
 
 

@@ -153,6 +153,8 @@ def _seen(
 ) -> Array:
     """What pairs see of a gap that a key of the contact gives along the normals of the nonmortar side, (n,)."""
     if isinstance(given, float | int):
+        if given == 0.0:
+            return np.zeros(len(coupling.nodes))
         return given * normal_gap(coupling, side.nodes, normals, np.ones(len(side.nodes)))
     return normal_gap(coupling, side.nodes, normals, at_nodes(given, space, side.nodes, (*where, key), side))
 

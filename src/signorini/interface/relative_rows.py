@@ -11,7 +11,6 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray, scaled_rows
 from signorini.fem.obstacles import carried, placed
 from signorini.fem.space import Space
-from signorini.interface.coupling import along
 from signorini.interface.hoop import hoop_rows
 from signorini.interface.pairing import Pairs
 from signorini.model.model import Model
@@ -66,18 +65,17 @@ def _sliding_rows(closing: tuple[sp.csr_array, ...], normals: Array, axes: Array
     In the plane that is the exact turn by a right angle: where the weights of the gap follow the normals along a curved
     side, those of the sliding follow its tangents, and a uniform friction passes as exactly as a uniform pressure.
     """
-    onto, aside = along(closing, normals), along(closing, axes)
-    return tuple(
-        sp.csr_array(scaled_rows(onto, axes[:, i]) - scaled_rows(aside, normals[:, i])) for i in range(axes.shape[1])
-    )
+    d = axes.shape[1]
+    turn = axes[:, :, None] * normals[:, None] - normals[:, :, None] * axes[:, None]
+    each = ((scaled_rows(closing[j], turn[:, i, j]) for j in range(d) if j != i) for i in range(d))
+    return tuple(sp.csr_array(sum(others, first)) for first, *others in each)
 
 
 def _with_obstacles(space: Space, model: Model, carrier: IntArray, weights: tuple[sp.csr_array, ...]) -> sp.csr_array:
     """Rows ``sum_ji weights_kji u_ji`` in terms of all unknowns: moving obstacles take the nonmortar side with them."""
-    entries = [sp.coo_array(part) for part in weights]
-    rows = np.concatenate([part.row for part in entries])
-    columns = np.concatenate([space.dofs(part.col.astype(np.int64))[:, i] for i, part in enumerate(entries)])
-    values = np.concatenate([part.data for part in entries])
+    rows = np.concatenate([np.repeat(np.arange(len(carrier)), np.diff(part.indptr)) for part in weights])
+    columns = np.concatenate([space.dofs(part.indices.astype(np.int64))[:, i] for i, part in enumerate(weights)])
+    values = np.concatenate([part.data for part in weights])
     bodies = sp.csr_array((values, (rows, columns)), shape=(len(carrier), space.dofs_of_nodes))
     bodies.eliminate_zeros()
     if not model.obstacles and not model.rigid_bodies:
