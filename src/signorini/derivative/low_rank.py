@@ -226,8 +226,8 @@ def _substituted(
         """Loads are substituted back once, not for every column."""
         moved = still.expand(kept)
         moved[:, :m] += pulling
-        if names:
-            moved[:, m:] += np.stack([system.inside(name) for name in names], axis=1) @ each
+        for name, factor in zip(names, each, strict=True):
+            moved[:, m:] += system.inside(name)[:, None] * factor
         return moved
 
     def travel(moved: Array) -> Array:
@@ -238,4 +238,4 @@ def _substituted(
     for name, factor in factors.items():
         if name in prepared.constraints.prescribed:
             found[:, m:] += np.outer(prepared.constraints.prescribed[name], factor)
-    return found[:, :m], found[:, m:]
+    return np.ascontiguousarray(found[:, :m]), np.ascontiguousarray(found[:, m:])

@@ -106,8 +106,8 @@ class ShapeSides:
 
     def _numbers(self, found: Interface) -> Array:
         """(2 + d, n) Gaps, areas and normals of pairs, in parts of the model and of the largest area."""
-        size, area = float(extent(self.prepared.model.mesh.points).max()), self.prepared.interface.area
-        return np.stack([found.gap / size, found.area / float(area.max(initial=0.0) or 1.0), *found.normals.T])
+        area = self.prepared.interface.area
+        return np.stack([found.gap / self._size, found.area / float(area.max(initial=0.0) or 1.0), *found.normals.T])
 
     def _between(self, first: float, last: float) -> BodyChange:
         """Differences from one part of the step to another."""
@@ -131,7 +131,11 @@ class ShapeSides:
             self._sides[part] = moved_side(self.prepared, part * self._step * self.motion)
         return self._sides[part]
 
-    @property
+    @cached_property
     def _step(self) -> float:
-        points = self.prepared.model.mesh.points
-        return _PART * float(extent(points).max()) / float(np.abs(self.motion).max())
+        return _PART * self._size / float(np.abs(self.motion).max())
+
+    @cached_property
+    def _size(self) -> float:
+        """Of the model, length."""
+        return float(extent(self.prepared.model.mesh.points).max())

@@ -164,7 +164,9 @@ def of_bodies(groups: Iterable[Group], bodies: BoolArray) -> Iterator[Group]:
     """Of groups of cells those of some bodies (b,)."""
     for group in groups:
         own = bodies[group.body]
-        if own.any():
+        if own.all():
+            yield group
+        elif own.any():
             yield replace(group, index=group.index[own], body=group.body[own])
 
 

@@ -294,6 +294,8 @@ def _of_shared_nodes(space: Space, model: Model, node: IntArray, rubs: BoolArray
     if space.dimension == 3 or not len(node):
         return np.zeros(len(node))
     shared = np.bincount(node)[node] > 1
+    if not shared.any():
+        return np.zeros(len(node))
     size = float(extent(space.mesh.points).max())
     softest = min(body.material.smallest_modulus for body in model.bodies)
     return np.where(shared & rubs, _SHARED_COMPLIANCE * size / softest, 0.0)

@@ -75,8 +75,9 @@ def scratch() -> Scratch:
     """Give fresh memory for the arguments of BLAS; one per thread."""
     size, kept = np.zeros(6, np.int32), np.array([1.0, -1.0, 0.0])
     letters = np.frombuffer(b"LRTN", np.uint8).copy()
-    left, right, transposed, plain = (letters.ctypes.data + k for k in range(4))
-    one, minus_one, zero = (kept.ctypes.data + 8 * k for k in range(3))
+    letter, number = letters.ctypes.data, kept.ctypes.data  # which take longer to ask for than all else
+    left, right, transposed, plain = letter, letter + 1, letter + 2, letter + 3
+    one, minus_one, zero = number, number + 8, number + 16
     return Scratch(size, size.ctypes.data, left, right, transposed, plain, one, minus_one, zero, kept, letters)
 
 

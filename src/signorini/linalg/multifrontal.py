@@ -59,11 +59,11 @@ class MultifrontalFactorisation(WithSchur):
     def reduce(self, f: Array) -> Reduced:
         """Eliminate the interior of a load."""
         columns = as_columns(f, self.n)
-        if columns.any():
-            y = np.ascontiguousarray(columns.T[:, self.plan.order])
-            self._forward(y)
-        else:
-            y = np.zeros(columns.T.shape)
+        if not columns.any():
+            still = np.zeros((self.m, columns.shape[1]))
+            return Reduced(like(f, still), lambda u_c: self._expand(f, np.zeros(columns.T.shape), u_c))
+        y = np.ascontiguousarray(columns.T[:, self.plan.order])
+        self._forward(y)
         g = np.empty((self.m, len(y)))
         g[self.slots] = y[:, self.n - self.m :].T
         return Reduced(like(f, g), lambda u_c: self._expand(f, y.copy(), u_c))
@@ -119,9 +119,9 @@ class MultifrontalFactorisation(WithSchur):
 
     def _halve(self, half: Callable[..., None], y: Array, *fronts: tuple[int, ...]) -> None:
         """One half of a solve for the rows of y, of ranges of fronts."""
-        work = np.empty(self.plan.widest * len(y))
+        work, memory = np.empty(self.plan.widest * len(y)), scratch()
         for some in fronts:
-            half(self.plan.fronts, *some, self.factor, y, work, scratch())
+            half(self.plan.fronts, *some, self.factor, y, work, memory)
 
     def _solve(self, jobs: Sequence[Job], y: Array) -> None:
         """Do what solves for the rows of y: the same jobs whatever number of threads shares them."""
