@@ -103,6 +103,18 @@ def test_nodes_add_up_to_a_shape_for_every_output():
     check(solution, WeightedSum(parts=parts))
 
 
+def test_a_shape_of_two_increments_takes_the_displacements_that_they_found():
+    """Beside what nodes have, which substitutes combinations of them back; also where an output pulls on bodies."""
+    press, pull = (replace(step, path="increments", increments=1) for step in STEPS[:2])
+    solution = sg.solve(curved(steps=[press, pull]), tape=True)
+    assert [point.displacement is None for point in solution._taped.view.points] == [False, False]
+    names = "peak", "dissipation", "displacement", "stress"
+    parts = tuple(
+        (1.0 / solution.derivative(output).value, output) for output in map(outputs(solution.model).get, names)
+    )
+    check(solution, WeightedSum(parts=parts))
+
+
 @pytest.mark.slow
 def test_discs_have_them_and_radii_on_the_axis_stay():
     ring = curved("axisymmetric", steps=STEPS[:2])

@@ -165,7 +165,7 @@ class Condensed:
         h, r, offset : (d, a) or (d, a, k), as of `displacement`
         """
         beyond: Array = (h.T - self.compliance.T * r.T - offset.T).T  # directions last
-        return beyond.reshape(-1, *r.shape[2:])
+        return beyond.reshape(self.compliance.size, *r.shape[2:])
 
     def on_springs(self, f: Array) -> Array:
         """Free displacements (z,) under loads (z,) where springs of stiffness D hold every pair, closed or not.

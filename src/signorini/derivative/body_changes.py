@@ -24,7 +24,7 @@ from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
 from signorini.derivative.body_side import BodySide, multiplier
 from signorini.derivative.contact_sums import ContactSums
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.low_rank import StateColumns, combinations_of, of_same_bodies, state_columns
+from signorini.derivative.low_rank import StateColumns, columns_of, of_same_bodies, state_columns
 from signorini.derivative.pair_change import PairChange
 from signorini.derivative.points import TapePoint
 from signorini.derivative.view import HistoryView
@@ -110,24 +110,23 @@ class BodyChange:
             found_at_once = self._by_sums(points, own, adjoint) if many else None
             if found_at_once is None:
                 few = len(own) <= _SUBSTITUTED_POINTS and self._by_cells
-                found_at_once = (self._by_combinations if few else self._by_states)(points, own, adjoint)
+                found_at_once = (self._by_columns if few else self._by_states)(points, own, adjoint)
             found += found_at_once
         return found
 
-    def _by_combinations(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:
+    def _by_columns(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:
         """What it changes through a few points of the same bodies, by adjoint and actual displacements."""
-        found, products = 0.0, list[Products]()
-        for columns in combinations_of(points, own, adjoint):
-            w, u, k = columns.adjoint, columns.displacement, len(columns.one)
-            if self.pairs is not None:
-                forces = columns.forces.reshape(-1, k)
-                moved = self.pairs.motions(columns.system, u, forces, columns.one)
-                found += float(np.vdot(columns.motion.reshape(-1, k), moved))
-                found += float(np.vdot(self.pairs.on_bodies(columns.system, forces), w))
-            for name, f in self.loads.items():
-                found += float(f @ (w @ columns.factor(name)))
-            products.append(Products.of(w, u))
-        return found - self._of_cells(own, adjoint, products)
+        columns = columns_of(points, own, adjoint)
+        w, u, k = columns.adjoint, columns.displacement, len(columns.one)
+        found = 0.0
+        if self.pairs is not None:
+            forces = columns.forces.reshape(-1, k)
+            moved = self.pairs.motions(columns.system, u, forces, columns.one)
+            found += float(np.vdot(columns.motion.reshape(-1, k), moved))
+            found += float(np.vdot(self.pairs.on_bodies(columns.system, forces), w))
+        for name, f in self.loads.items():
+            found += float(f @ (w @ columns.factor(name)))
+        return found - self._of_cells(own, adjoint, [Products.of(w, u)])
 
     @cached_property
     def _by_cells(self) -> bool:

@@ -169,6 +169,37 @@ def combinations_of(points: Sequence[TapePoint], own: Sequence[int], adjoint: Ad
         )
 
 
+def columns_of(points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> Combination:
+    """A few points of the same bodies as they are, a column each; displacements that the history has found are known.
+
+    Parameters
+    ----------
+    points, own, adjoint : as of `combinations_of`
+    """
+    some, system = [points[i] for i in own], points[own[0]].system
+    names, blocks = state_blocks(some)
+    h, r, known, offset = (np.moveaxis(block, 0, -1) for block in blocks)
+    motion, resultant = (np.moveaxis(block, 0, -1) for block in term_blocks(system, own, adjoint))
+    factors = dict(zip(names, known[1:], strict=True))
+    still = np.zeros(system.prepared.constraints.transform.shape[1])
+    pulling = np.stack([adjoint.pulled.get(i, still) for i in own], axis=-1) if adjoint.pulled else np.zeros(())
+    lacking = [k for k, point in enumerate(some) if point.displacement is None]
+    states = h[..., lacking], r[..., lacking], offset[..., lacking]
+    of_lacking = {name: factor[lacking] for name, factor in factors.items()}
+    w, found = _substituted(system, (motion, resultant, pulling), states, of_lacking)
+    substituted = iter(found.T)
+    u = [next(substituted) if point.displacement is None else point.displacement for point in some]
+    return Combination(
+        system=system,
+        adjoint=w,
+        displacement=np.stack(u, axis=-1),
+        motion=motion,
+        forces=r,
+        one=known[0],
+        factors=factors,
+    )
+
+
 def _largest(left: list[Array], right: list[Array]) -> tuple[list[Array], list[Array]]:
     """Blocks of which the sum over the first axis of the products is that of fewer, which lie along the last axis.
 
@@ -216,7 +247,7 @@ def _substituted(
     prepared, condensed, (motion, resultant, pulling), r = system.prepared, system.condensed, adjoint, states[1]
     T, m, k = prepared.constraints.transform, motion.shape[-1], r.shape[-1]
     names = [name for name, factor in factors.items() if factor.any()]
-    each = np.array([factors[name] for name in names]).reshape(-1, k)
+    each = np.array([factors[name] for name in names]).reshape(len(names), k)
     still, beyond = condensed.reduce(np.zeros((T.shape[1], m + k))), condensed.beyond_forces(*states)
     load = still.load.copy()
     for name, factor in zip(names, each, strict=True):

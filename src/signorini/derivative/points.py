@@ -72,6 +72,7 @@ class TapePoint:
     trials : ends of the increments that told the length of that
     passes : in space, whether an event in the piece would not end it
     at_rest : whether it is where the history begins, in the states that pairs are in from there on
+    displacement : (dofs,) at the end of an increment, where the history has found them; None elsewhere
     acting : (m,) pairs whose event it is; empty where the load is given
     increment : (n,) or all: whether the friction of a pair in the piece is that of its end, as in an increment
     """
@@ -93,6 +94,7 @@ class TapePoint:
     trials: tuple[TapePoint, ...] = ()
     passes: bool = False
     at_rest: bool = False
+    displacement: Array | None = None
 
     @property
     def at_event(self) -> bool:
@@ -400,4 +402,5 @@ def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[T
             r_rate=None,
             acting=_NOBODY,
             increment=leg.low < leg.high,  # at once friction does the work of its mean
+            displacement=None if leg.carried else state.displacement,
         )
