@@ -10,8 +10,8 @@ import signorini as sg
 from signorini.derivative.adjoint_terms import BoundTerm, Weights
 from signorini.derivative.block_steps import BlockSteps
 from signorini.derivative.forward import forward
-from signorini.derivative.points import tape_points
 from signorini.derivative.recursion import backward
+from signorini.derivative.tape_points import tape_points
 from signorini.gallery.cylinder import zhu_cylinder
 from tests.derivative.replay import replayed, replayed_in_space
 from tests.derivative.rig import rig, tilted_rig

@@ -39,7 +39,7 @@ class ContactTangent:
     motion: Array
 
 
-_SAME = 1e-6  # of the largest: motions and forces, and pressures of nodes, to both sides of what has one derivative
+_SAME_CHANGE = 1e-6  # of the largest: what motions, forces and pressures differ by to both sides that are one
 
 
 class HistoryTangent:
@@ -69,13 +69,15 @@ class HistoryTangent:
             return False
         ends = list(zip(self._given_loads, other._given_loads, strict=True))
         fields = [(getattr(self._changes[i], name), getattr(other._changes[j], name)) for i, j in ends for name in "hr"]
-        if any(np.abs(one - two).max() > _SAME * max(np.abs(one).max(), np.abs(two).max()) for one, two in fields):
+        if any(
+            np.abs(one - two).max() > _SAME_CHANGE * max(np.abs(one).max(), np.abs(two).max()) for one, two in fields
+        ):
             return True
         points, contacts = self._history.view.points, self._history.view.model.contacts
         for factor, contact in product({points[i].load_factor for i, _ in ends}, contacts):
             work = Dissipation(load_factor=factor, contact="" if contact.tied else contact.label)
             one, two = self._terms(work), other._terms(work)
-            if abs(one.sum() - two.sum()) > _SAME * max(np.abs(one).sum(), np.abs(two).sum()):
+            if abs(one.sum() - two.sum()) > _SAME_CHANGE * max(np.abs(one).sum(), np.abs(two).sum()):
                 return True
         return False
 
@@ -86,7 +88,7 @@ class HistoryTangent:
         return [i for i, point in enumerate(points) if not point.at_event and point.quiet is None]
 
     def to_both(self) -> HistoryTangent:
-        """The same, of a parameter that changes the same to both sides."""
+        """The tangent of a parameter that changes the same to both sides."""
         return HistoryTangent(self._history, self._changes, self._load_factor, (-1.0, 1.0))
 
     def contact(self, name: str) -> ContactTangent:
@@ -130,7 +132,7 @@ class HistoryTangent:
         """What it changes of the largest pressure, which several nodes have."""
         rates = [self.of(node) for node in nodes]
         low, high = min(rates), max(rates)
-        if len(self._ways) > 1 and high - low > _SAME * (abs(high) + abs(low)):
+        if len(self._ways) > 1 and high - low > _SAME_CHANGE * (abs(high) + abs(low)):
             words = tied_words(self._history.view, nodes[0], nodes[1])
             raise InputError(f"{words}: what changes it has two sides; those of tangent_sides have one each")
         return high if self._ways[-1] > 0.0 else low

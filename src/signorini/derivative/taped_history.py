@@ -23,10 +23,11 @@ from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.modulus_pairs import ModulusPairs
 from signorini.derivative.one_sided import beside
 from signorini.derivative.parameters import change_of
-from signorini.derivative.points import TapePoint, tape_points
+from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import AtOnce, Change, changed
 from signorini.derivative.refusals import refuse_tape
 from signorini.derivative.shared_events import SharedEvents
+from signorini.derivative.tape_points import tape_points
 from signorini.derivative.tied_peaks import TiedPeak, at_peaks, tied_peaks
 from signorini.derivative.touching_start import GapRate, TouchingStart
 from signorini.derivative.validity import PathEdge, edges, validity
