@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is asked of an accuracy beside what is true; writes tables and pictures of docs/accuracy.md.
 
-    python -m benchmarks.accuracy [--dry] [--only plane work variations space ball outputs drawn] [--processes 2]
+    python -m benchmarks.accuracy [--dry] [--only plane work variations ...] [--processes 2]
 
 "true" is the error against the same model asked for far more, of the ball against Hertz' pressure. "ratio" is the
 estimate over it, "work" the CPU seconds of all meshes and estimates over those of the last mesh alone, its estimate
 left out, and "uniform" the nodes that a mesh needs whose cells are all halved, again and again, for the same error.
-Where a solve takes a second, work has a table of its own. Variations are problems drawn by a seed
+Where a solve takes a second, work has tables of its own
+(:mod:`benchmarks.accuracy_work`). Variations are problems drawn by a seed
 (:mod:`benchmarks.accuracy_variations`). Of outputs by name (:mod:`benchmarks.accuracy_outputs`), what is smaller than
 the reference's own estimated error is told as below that. Each table comes from one run; problems are shared among
 processes.
@@ -18,22 +19,19 @@ import itertools
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks import accuracy_outputs, command, page
+from benchmarks import accuracy_outputs, accuracy_work, command, page
 from benchmarks.accuracy_variations import FAMILIES, variation
 from signorini.accuracy.curves import curves_of
-from signorini.accuracy.estimate import estimate
 from signorini.api import solve
 from signorini.gallery import coarse
 from signorini.meshing.simplices import Simplices
 from signorini.model.accuracy import Accuracy
 from signorini.model.model import Model
-from signorini.model.step import Step
 from signorini.plot.accuracy import draw_accuracy
 from signorini.plot.picture_data import PictureData
 from signorini.solved import Solution
@@ -73,27 +71,7 @@ PLANE: dict[str, tuple[str, Callable[[], Model]]] = {
 FLAT = "flat punch, stresses"
 PROBLEMS = (*PLANE, FLAT)
 DRAWN = ("Hertz, line", "the paper's cylinder", "two cylinders, friction 0.3")
-TABLES = ("plane", "work", "variations", "space", "ball", "outputs", "drawn")
-WORK_HEAD = (
-    "problem",
-    "asked, %",
-    "nodes",
-    "meshes",
-    "estimated, %",
-    "last solve, s",
-    "its estimate, s",
-    "work",
-)
-LONG: tuple[tuple[str, Callable[[], Model], float], ...] = (
-    ("two cylinders, friction 0.3", coarse.two_cylinders, 0.003),
-    ("rounded punch, friction 0.3", coarse.rounded_punch, 0.001),
-    ("the paper's cylinder, pressed, half, pressed", lambda: pressed_again(coarse.cylinder()), 0.001),
-    ("the paper's cylinder, linear triangles", lambda: coarse.cylinder(order=1), 0.002),
-    ("Hertz, line, linear triangles", lambda: coarse.hertz_line(order=1), 0.003),
-)
-"""Problems whose last solve takes a second, and a shorter one on cells that are solved soonest; what is asked."""
-REPEATS = 3
-"""Of the last solve and its estimate, of which the median counts."""
+TABLES = ("plane", "work", "work of outputs", "variations", "space", "ball", "outputs", "drawn")
 FINE = Accuracy(8e-4, nodes=90_000)
 """Of what errors are measured against."""
 VARIATIONS = 4
@@ -144,7 +122,12 @@ def main() -> None:
             command.publish(options, "drawn", text, DOCUMENT)
     if "work" in options.only:
         solve(coarse.cylinder(), accuracy=0.1)
-        command.publish(options, "work", page.table(WORK_HEAD, [work(*one) for one in LONG]), DOCUMENT)
+        rows = [accuracy_work.of_norm(*one) for one in accuracy_work.NORMS]
+        command.publish(options, "work", page.table(accuracy_work.HEAD, rows), DOCUMENT)
+    if "work of outputs" in options.only:
+        solve(coarse.cylinder(), accuracy=Accuracy(0.1, of="peak pressure"))
+        rows = [accuracy_work.of_output(*one) for one in accuracy_work.OUTPUTS]
+        command.publish(options, "work of outputs", page.table(accuracy_work.OUTPUTS_HEAD, rows), DOCUMENT)
     for table, errors in (("space", IN_SPACE), ("ball", FINEST_IN_SPACE)):
         if table in options.only:
             rows = measured("Hertz, point, in space", coarse.ball, errors, "pressure", point_error, in_space=True)[0]
@@ -276,35 +259,6 @@ def measured(
         reached.append((result.levels[-1].nodes, exact))
         print(*rows[-1], sep=" | ", flush=True)
     return rows, uniform, reached
-
-
-def pressed_again(model: Model) -> Model:
-    """In three steps, the second of half of the load."""
-    (load,) = model.loads
-    steps = [Step(name=f"step {k}", scale={load.label: size}) for k, size in enumerate((1.0, 0.5, 1.0))]
-    return replace(model, steps=steps)
-
-
-def work(name: str, pose: Callable[[], Model], asked: float) -> tuple[object, ...]:
-    """A row of what all meshes took over the last one.
-
-    Parameters
-    ----------
-    name, pose : of the problem
-    asked : error of the pressures
-    """
-    seconds, found = command.cpu(lambda: solve(pose(), accuracy=Accuracy(asked, nodes=FINE.nodes)))
-    last, estimated = (
-        float(np.median([command.cpu(do, *given)[0] for _ in range(REPEATS)]))
-        for do, given in ((solve, (found.model,)), (estimate, (found,)))
-    )
-    result = found.accuracy
-    assert result is not None
-    nodes = f"{result.levels[-1].nodes}{'' if result.met else ' (most)'}"
-    row = (name, f"{100 * asked:g}", nodes, len(result.levels), f"{100 * result.pressure:.3f}")
-    row = (*row, f"{last:.2f}", f"{estimated:.2f}", f"{seconds / last:.1f}")
-    print(*row, sep=" | ", flush=True)
-    return row
 
 
 def uniformly(model: Model, true: Callable[[Solution], float]) -> list[tuple[int, float]]:

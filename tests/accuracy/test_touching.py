@@ -1,4 +1,4 @@
-"""Facets that touch, halved beside a mesh that stays as it is."""
+"""Facets that touch, halved."""
 
 from dataclasses import replace
 
@@ -35,18 +35,21 @@ def test_all_edges_of_cells_are_halved(model):
     assert len(finer.parents) == len(finer.points)
 
 
-def test_a_mesh_is_as_it_was_where_cells_were_halved_beside_it():
+def test_what_is_halved_is_refined_on_from_there():
+    """Values go with it node by node, and what the mesh before had is carried over both at once."""
     model = coarse.hertz_line()
     x = model.mesh.points[:, 0]
     model = replace(model, loads=[replace(model.loads[0], force=None, pressure=NodeValues(1.0 + x))])
-    aside, straight = RefinedMeshes(model, ASKED), RefinedMeshes(model, ASKED)
-    cells = np.arange(len(aside.simplices.cells)) < 5
-    beside = aside.halved(cells)
-    assert beside.loads[0].pressure.values == pytest.approx(1.0 + beside.mesh.points[:, 0])
-    weights, growth = np.ones(len(cells)), Growth(least=2.0, most=2.0)
-    one, other = (meshes.next(weights, growth) for meshes in (aside, straight))
-    assert (one.mesh.points == other.mesh.points).all()
-    assert (one.loads[0].pressure.values == other.loads[0].pressure.values).all()
+    meshes = RefinedMeshes(model, ASKED)
+    first = meshes.simplices
+    grown = meshes.next(np.ones(len(first.cells)), Growth(least=2.0, most=2.0))
+    finer = meshes.halved(np.arange(len(meshes.simplices.cells)) < 5)
+    assert len(finer.mesh.points) > len(grown.mesh.points)
+    assert finer.loads[0].pressure.values == pytest.approx(1.0 + finer.mesh.points[:, 0])
+    assert meshes.simplices.carried(first.points) == pytest.approx(meshes.simplices.points)
+    middles = meshes.simplices.points[meshes.simplices.cells].mean(axis=1)
+    corners = first.points[first.cells[meshes.simplices.origin]]
+    assert ((middles >= corners.min(axis=1)) & (middles <= corners.max(axis=1))).all()
 
 
 def test_cells_of_both_sides_that_touch_at_the_end_of_some_step():

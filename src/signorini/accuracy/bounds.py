@@ -28,9 +28,8 @@ few pairs, whose errors are those of the ends alone."""
 SHARE_OF_ROOM, SMALLEST_GROWTH = 0.9, 1.2
 """Of the nodes that a mesh may have: what it is made for where errors ask for more; the least growth worth a mesh."""
 
-SHARE_FOR_OUTPUTS = {2: 0.6, 3: 0.3}
-"""The same for outputs: where the facets that touch are halved a mesh has up to one and a half times, in space three
-times the nodes."""
+HALVED = {2: 1.4, 3: 3.5}
+"""How many times the nodes of a mesh it has, about, where the facets that touch are halved, which outputs ask for."""
 
 LEVELS = 40
 """Meshes that are tried at most; each has some 1.5 times the nodes of the one before, so that nodes end it first."""
@@ -42,8 +41,9 @@ In space they are those of a circle of ten across, and of a quarter of one twice
 PLANE = 2
 """Dimension in which what the sides of a contact lack tells where to refine, and errors fall as evenly as cells."""
 
-_MESHES = {"energy": 1, "pressure": 2, "traction": 2}
-"""On which each has to be known, at least; outputs on three: their errors change sign."""
+_MESHES, _MESHES_FOR_OUTPUTS = {"energy": 1, "pressure": 2, "traction": 2}, {2: 3, 3: 2}
+"""On which each has to be known, at least; outputs, whose errors change sign, on three, in space on two: there each has
+four times the nodes of the one before and more."""
 
 _LINEAR_PRESSURES = 1.5
 """Times the power of nodes with which stresses of linear cells lack less: that of pressures, which balance loads."""
@@ -80,7 +80,7 @@ class Bounds:
     @property
     def _meshes(self) -> int:
         of = self._request.of
-        return _MESHES[of] if isinstance(of, str) else 3
+        return _MESHES[of] if isinstance(of, str) else _MESHES_FOR_OUTPUTS[self._dimension]
 
     def growth(self, found: Estimate, model: Model, levels: Sequence[MeshLevel]) -> Growth:
         """Of the number of cells, as far as errors that fall as usual, or as they have, ask for it.
@@ -93,27 +93,27 @@ class Bounds:
         levels : meshes so far, with this one
         """
         request, d, error = self._request, model.dimension, found.of(self._request.of)
-        least, most = LEAST_GROWTH, MOST_GROWTH
-        even, in_space = (isinstance(request.of, str) and d == own for own in (PLANE, IN_SPACE))
+        norm = isinstance(request.of, str)
+        even, in_space, halved = d == PLANE, norm and d == IN_SPACE, 1.0 if norm else HALVED[d]
+        least, most = LEAST_GROWTH if norm else SMALLEST_GROWTH, MOST_GROWTH
         lacks = min(max(error / request.error / (SHARE_IN_SPACE if in_space else SAFE_SHARE), 1.0), 1e6)
         needed = lacks ** (1.0 / self._power(found, model, levels))
         if even and needed > MOST_IN_PLANE:
             needed **= 1.0 / math.ceil(math.log(needed) / math.log(MOST_IN_PLANE))
         if even or (in_space and needed <= MOST_TO_THE_LAST):
             most = max(needed, least)
-        share = SHARE_OF_ROOM if isinstance(request.of, str) else SHARE_FOR_OUTPUTS[d]
-        room = share * request.nodes / len(model.mesh.points)
-        times = min(max(needed, least), most, room if room > SMALLEST_GROWTH else most)
-        return Growth(least=min(least, times), most=times, share=1.0 / lacks if even else 0.0)
+        room = SHARE_OF_ROOM / halved * request.nodes / len(model.mesh.points)
+        times = min(max(needed / halved, least), most, room if room > SMALLEST_GROWTH else most)
+        return Growth(least=min(least, times), most=times, share=1.0 / lacks if even and norm else 0.0)
 
     def _power(self, found: Estimate, model: Model, levels: Sequence[MeshLevel]) -> float:
         """Of the number of nodes, with which errors are expected to fall."""
         of, d, linear = self._request.of, model.dimension, is_linear(model)
         power = (1.0 if linear else 2.0) / d
-        if not isinstance(of, str) or (d == IN_SPACE and of == "energy"):
-            return power
+        if not isinstance(of, str):
+            return power * (1.0 if d == IN_SPACE else min(max(_fall(levels[-2:], "output") / power, 1.0), _FASTER))
         if d == IN_SPACE:
-            return power * _FALL_NEAR_CONTACT
+            return power * (1.0 if of == "energy" else _FALL_NEAR_CONTACT)
         if linear and of != "energy":
             power *= _LINEAR_PRESSURES
         few = found.pairs < PAIRS[d] and of != "energy"
@@ -145,6 +145,6 @@ class Bounds:
 
 def _fall(levels: Sequence[MeshLevel], of: str) -> float:
     """Of the number of nodes with which an error has fallen between two meshes; 0 where it has not, or of one mesh."""
-    errors = [float(getattr(level, of)) for level in levels]
+    errors = [float(getattr(level, of) or 0.0) for level in levels]
     falls = len(levels) > 1 and errors[0] > errors[1] > 0.0
     return math.log(errors[0] / errors[1]) / math.log(levels[1].nodes / levels[0].nodes) if falls else 0.0

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import cast
 
 import numpy as np
 
 from signorini.accuracy.estimate import Estimate
+from signorini.accuracy.halving import SolvedMesh
 from signorini.accuracy.output_error import OutputLevel, output_error
 from signorini.accuracy.recovery import StressRecovery
 from signorini.arrays import Array
@@ -26,9 +27,6 @@ from signorini.model.outputs import AtNode, Displacement, Dissipation, Mean, Out
 
 _WHERE = ("accuracy", "of")
 
-Solved = tuple[Model, Tape]
-"""A model and its history."""
-
 
 class Goal:
     """An output that is to be accurate, on mesh after mesh.
@@ -41,7 +39,19 @@ class Goal:
     def __init__(self, output: Output) -> None:
         self._output, self._levels = output, list[OutputLevel]()
 
-    def estimated(self, found: Estimate, solved: Solved, halved: Callable[[], Solved | None]) -> Estimate:
+    def value(self, model: Model, tape: Tape) -> float:
+        """The output; nan where nothing presses, or in one place alone.
+
+        Parameters
+        ----------
+        model, tape : solved
+        """
+        try:
+            return value(self._output, TapedHistory(tape, model).view)
+        except InputError:
+            return float("nan")
+
+    def estimated(self, found: Estimate, mesh: SolvedMesh) -> Estimate:
         """An estimate with what is asked for: the output, its error, and cells by what their errors count for it.
 
         Half of a cell's share is the product of its errors of stresses and of dual ones, half is what counts for
@@ -50,19 +60,17 @@ class Goal:
         Parameters
         ----------
         found : without it
-        solved : on the mesh
-        halved : solves where the facets that touch are halved; None where that is not to be, or has no solution
+        mesh : solved
 
         Raises
         ------
         InputError
             By name, what derivatives do not know.
         """
-        model, tape = solved
-        number, products, signed = self._products(model, tape)
-        there = halved() if np.isfinite(number) else None
-        level = OutputLevel(value=number, nodes=len(model.mesh.points), signed=signed)
-        self._levels.append(level if there is None else replace(level, halved=self._value(*there)))
+        assert mesh.tape is not None
+        number, products, signed = self._products(mesh.model, mesh.tape)
+        length = float(len(products)) ** (-1.0 / mesh.model.dimension)
+        self._levels.append(OutputLevel(value=number, whole=mesh.whole, length=length, signed=signed))
         lacks = output_error(self._levels)
         shares = [part / part.sum() for part in (products, found.weights) if part.sum() > 0.0]
         return replace(
@@ -71,13 +79,6 @@ class Goal:
             output=lacks / abs(number) if number and np.isfinite(number) else float("inf"),
             weights=sum(shares, np.zeros(len(products))),
         )
-
-    def _value(self, model: Model, tape: Tape) -> float:
-        """The output; nan where nothing presses, or in one place alone."""
-        try:
-            return value(self._output, TapedHistory(tape, model).view)
-        except InputError:
-            return float("nan")
 
     def _products(self, model: Model, tape: Tape) -> tuple[float, Array, float]:
         """The output, of every cell the product of its errors of stresses and of dual ones in energy, and their work.

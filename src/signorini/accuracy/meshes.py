@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -106,16 +105,17 @@ class RefinedMeshes:
         return self._posed(self.simplices, self._values)
 
     def halved(self, cells: BoolArray) -> Model:
-        """On simplices of which some are halved, with all their edges; what is refined afterwards is the mesh as it is.
+        """On simplices of which some are halved, with all their edges; parents and origins go on from the same mesh.
 
         Parameters
         ----------
         cells : (m,) which
         """
-        finer, values = halved(self.simplices, cells, self._curves), copy(self._values)
-        if values is not None:
-            values.refine(finer)
-        return self._posed(finer, values)
+        finer = halved(self.simplices, cells, self._curves)
+        if self._values is not None:
+            self._values.refine(finer)
+        self.simplices = _since(self.simplices, finer)
+        return self._posed(self.simplices, self._values)
 
     def _posed(self, simplices: Simplices, values: CarriedValues | None) -> Model:
         mesh = self._kept.on(without_rest(simplices.mesh(self._order, self._curves)))

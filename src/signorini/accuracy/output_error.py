@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What an output lacks: what it is on a mesh whose touching facets are halved, and what errors of stresses tell."""
+"""What an output lacks: what halving the facets that touch has changed, and what errors of stresses tell."""
 
 from __future__ import annotations
 
@@ -8,12 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SAFE_FACTOR = 1.5
-"""Times what halving the facets that touch changes: what is lost between their nodes falls to a fourth, so that the
-change is three fourths of it, or, where friction remembers where a contact has ended, to a half, so that it is half."""
+SLOW_FALL, FAST_FALL = 1.0, 1.7
+"""Powers of the length of facets with which what is lost between their nodes is taken to fall, at least and at most:
+with the length itself, where friction remembers where a contact has ended on its way, or with its square, of which less
+is believed."""
 
-SLOW_FALL = 0.5
-"""Power of nodes with which an output falls where nothing but meshes before is known: it errs on the safe side."""
+FASTEST_FALL = 4.0
+"""The same of an output from mesh to mesh: what halving facets changes is small by luck at times, and then what has
+changed since the mesh before tells what is left at least."""
+
+HALVED = 2.0
+"""How many times the facets that touch are shorter on every mesh, at least."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,22 +28,27 @@ class OutputLevel:
     Attributes
     ----------
     value : of the output; nan where nothing presses yet
-    nodes : of the mesh
+    whole : before the facets that touch were halved; nan where that is not known
+    length : of cells, as it falls with their number
     signed : what errors of stresses lack of it, the sum of their products with dual ones
-    halved : the output where the facets that touch are halved; nan where that is not known
     """
 
     value: float
-    nodes: int
+    whole: float
+    length: float
     signed: float
-    halved: float = float("nan")
+
+    @property
+    def change(self) -> float:
+        """By the halved facets."""
+        return abs(self.value - self.whole)
 
 
 def output_error(levels: Sequence[OutputLevel]) -> float:
     """Estimated error of an output on the last of some meshes, of its own kind; inf where nothing is known yet.
 
-    What is lost between the nodes of the contacts, from what halving their facets changes, and what errors of stresses
-    lack. Where facets were not halved: what the last meshes have changed, as it falls where outputs fall most slowly.
+    What is left of what is lost between the nodes of the contacts, by what halving their facets has changed, and what
+    errors of stresses lack.
 
     Parameters
     ----------
@@ -46,15 +56,36 @@ def output_error(levels: Sequence[OutputLevel]) -> float:
 
     Examples
     --------
-    >>> level = OutputLevel(value=1.0, nodes=900, signed=-0.001, halved=1.02)
+    >>> level = OutputLevel(value=1.0, whole=1.02, length=0.1, signed=-0.001)
     >>> round(output_error([level]), 3)
-    0.031
+    0.021
     """
-    if not levels or not np.isfinite(levels[-1].value):
-        return float("inf")
     last = levels[-1]
-    if np.isfinite(last.halved):
-        return SAFE_FACTOR * abs(last.halved - last.value) + abs(last.signed)
-    known = [one for one in levels[-3:-1] if np.isfinite(one.value)]
-    changes = [abs(last.value - one.value) * (one.nodes / last.nodes) ** SLOW_FALL for one in known]
-    return max([*changes, abs(last.signed)]) if changes else float("inf")
+    if not np.isfinite(last.change):
+        return float("inf")
+    power, least = SLOW_FALL, 0.0
+    if len(levels) > 1 and np.isfinite(levels[-2].change):
+        before = levels[-2]
+        finer = max(before.length / last.length, HALVED)
+        if before.change > last.change > 0.0:
+            fall = np.log(before.change / last.change) / np.log(finer)
+            power = float(np.clip(fall, SLOW_FALL, FAST_FALL))
+        least = left(abs(last.value - before.value), finer, FASTEST_FALL)
+    return max(left(last.change, HALVED, power), least) + abs(last.signed)
+
+
+def left(change: float, finer: float, power: float) -> float:
+    """Of an error that falls with a power of a length, what is left where it has changed by so much.
+
+    Parameters
+    ----------
+    change : of the output
+    finer : how many times the length has become smaller
+    power : of the length
+
+    Examples
+    --------
+    >>> left(0.75, 2.0, 2.0)
+    0.25
+    """
+    return change / (finer**power - 1.0)

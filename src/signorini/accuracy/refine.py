@@ -12,10 +12,9 @@ import numpy as np
 
 from signorini.accuracy.bounds import Bounds
 from signorini.accuracy.estimate import IN_SPACE, Estimate, estimate
+from signorini.accuracy.halving import SolvedMesh, solved_with_halves
 from signorini.accuracy.meshes import RefinedMeshes
-from signorini.accuracy.touching import touching_cells
 from signorini.arrays import IntArray, among
-from signorini.engine.tape import Tape
 from signorini.errors import InputError
 from signorini.iterative.bodies import ITERATIVE
 from signorini.model.accuracy import Accuracy, Asked
@@ -69,58 +68,53 @@ def _refined(model: Model, request: Accuracy, solve: Callable[..., History]) -> 
 
         told = named(request.of, model)
         request, goal = replace(request, of=told), Goal(on_corners(told, model.mesh))
+
+    def end(history: History, following: Model) -> str:
+        nodes, more = (len(one.mesh.points) for one in (history.model, following))
+        return bounds.end(nodes, more, len(levels), iterated=history.backend == ITERATIVE)
+
     while True:
-        begun, tape = time.perf_counter(), None if goal is None else Tape()
+        begun = time.perf_counter()
         try:
-            history = solve(posed, tape=tape)
+            if goal is None:
+                mesh = SolvedMesh(model=posed, history=solve(posed, tape=None))
+            else:
+                mesh = solved_with_halves(posed, solve, goal.value, meshes, end)
+            history = mesh.history
             if not history.solved:
                 return history if known is None else _interrupted(known, history)
-            found = estimate(history, before)
-            if goal is not None and tape is not None:
-                beside = partial(_halved, solve, meshes, history, partial(bounds.end, len(posed.mesh.points)))
-                found = goal.estimated(found, (posed, tape), beside)
+            if mesh.reason and known is not None:
+                return _ended(known, mesh.reason)
+            found = estimate(history, None if before is None else (meshes.simplices, *before))
+            if goal is not None:
+                found = goal.estimated(found, mesh)
         except InputError as error:
-            if known is None or known.accuracy is None:
+            if known is None:
                 raise
-            return replace(known, accuracy=replace(known.accuracy, reason=f"on a finer mesh: {error}"))
-        levels.append(_level(posed, found, time.perf_counter() - begun))
-        met, reason = bounds.met(found, len(levels)), ""
-        if not met:
-            nodes = len(posed.mesh.points)
+            return _ended(known, f"on a finer mesh: {error}")
+        levels.append(_level(mesh.model, found, time.perf_counter() - begun))
+        met, reason = bounds.met(found, len(levels)), mesh.reason
+        if not met and not reason:
             weights = found.squares if request.of == "energy" else found.weights
-            posed = meshes.next(weights, bounds.growth(found, posed, levels))
-            iterated = history.backend == ITERATIVE
-            reason = bounds.end(nodes, len(posed.mesh.points), len(levels), iterated=iterated)
+            posed = meshes.next(weights, bounds.growth(found, mesh.model, levels))
+            reason = end(history, posed)
             if reason and len(levels) == 1 and found.of(request.of) <= request.error:
                 reason = f"it is estimated on one mesh alone: {reason}"
         known = replace(history, accuracy=_result(found, tuple(levels), request, reason, meshes.notes))
         if met or reason:
             return known
-        before = meshes.simplices, known, found
+        before = known, found
 
 
-def _halved(
-    solve: Callable[..., History], meshes: RefinedMeshes, history: History, end: Callable[..., str]
-) -> tuple[Model, Tape] | None:
-    """Solved where the facets that touch are halved; None where a bound forbids it, or it has no solution.
-
-    Parameters
-    ----------
-    solve : see `accurate`
-    meshes, history : the mesh as it is, and what was solved on it
-    end : see :meth:`Bounds.end`, for the nodes that there are now
-    """
-    model, tape = meshes.halved(touching_cells(history, meshes.simplices.cells)), Tape()
-    if end(len(model.mesh.points), 1, iterated=history.backend == ITERATIVE):
-        return None
-    return (model, tape) if solve(model, tape=tape).solved else None
+def _ended(known: History, reason: str) -> History:
+    """What was solved on the mesh before, and why on no finer one."""
+    return replace(known, accuracy=None if known.accuracy is None else replace(known.accuracy, reason=reason))
 
 
 def _interrupted(known: History, history: History) -> History:
     """What was solved on the mesh before one on which a history has ended."""
     message = f"on a finer mesh: {history.message}; results are those of the mesh before"
-    accuracy = None if known.accuracy is None else replace(known.accuracy, reason=message)
-    return replace(known, status=history.status, message=message, accuracy=accuracy)
+    return replace(_ended(known, message), status=history.status, message=message)
 
 
 def refuse_one_mesh(asked: Asked | None, **given: bool) -> None:
