@@ -68,7 +68,7 @@ class Goal:
             By name, what derivatives do not know.
         """
         assert mesh.tape is not None
-        number, products, signed = self._products(mesh.model, mesh.tape)
+        number, products, signed = self.products(mesh.model, mesh.tape)
         length = float(len(products)) ** (-1.0 / mesh.model.dimension)
         self._levels.append(OutputLevel(value=number, whole=mesh.whole, length=length, signed=signed))
         lacks = output_error(self._levels)
@@ -80,11 +80,20 @@ class Goal:
             weights=sum(shares, np.zeros(len(products))),
         )
 
-    def _products(self, model: Model, tape: Tape) -> tuple[float, Array, float]:
+    def products(self, model: Model, tape: Tape) -> tuple[float, Array, float]:
         """The output, of every cell the product of its errors of stresses and of dual ones in energy, and their work.
 
         The work of two errors is half of what that of their sum has more than they have: one of them is scaled, so that
-        neither is lost in rounding.
+        neither is lost in rounding. It is what the output lacks of the stresses, more of it where it is > 0.
+
+        Parameters
+        ----------
+        model, tape : solved
+
+        Raises
+        ------
+        InputError
+            For bolts that lock.
         """
         view, output = TapedHistory(tape, model).view, self._output
         if view.points[-1].system.locked:  # what is lost before they lock would be missing
