@@ -45,6 +45,14 @@ class PieceConditions:
         of_friction = (self.friction * r[1:, self.pair]).sum(axis=0)
         return np.asarray(self.gap * h[0, self.pair] + self.pressure * r[0, self.pair] + of_friction)
 
+    def event(self, number: int) -> PieceEvent:
+        """The condition of a number, as what ends the piece."""
+        names = ("gap", "pressure", "start", "slope", "kink", "value", "rate")
+        parts = {name: float(getattr(self, name)[number]) for name in names}
+        along = self.friction[:, number]
+        friction = float(along[0]) if len(along) == 1 else along.copy()
+        return PieceEvent(pair=int(self.pair[number]), branch=int(self.branch[number]), friction=friction, **parts)
+
     def number(self, event: PieceEvent) -> int:
         """Of an event among the conditions."""
         alike = (self.friction == np.reshape(event.friction, (-1, 1))).all(axis=0)

@@ -106,7 +106,8 @@ class EventOrder:
             first = float(parts.min())
             acting = np.isfinite(parts) & (piece.at(first) <= piece.none)
             pairs = np.unique(piece.point.conditions.pair[piece.numbers[acting]])
-            self.walk.put([replace(piece.point, acting=pairs), point], like=point)
+            event = replace(piece.point, acting=pairs, acts=int(piece.numbers[parts.argmin()]))
+            self.walk.put([event, point], like=point)
             self.walk.go_on()
             before, states = states, self._behind(piece, first)
             if states.same(before):

@@ -77,14 +77,13 @@ def _beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) -
     last : number of that point
     """
     *before, point = view.points
-    pair = int(point.conditions.pair[condition])
     if point.rates is None or point.passes:
         states = _nudged(point, view.motions(last - 1)[1:] if last else None, condition)
         return [*before, replace(point, states=states)]
     on = _gone_on(point, legs[point.leg])
     if on is None:
         return None
-    event = replace(point, acting=np.array([pair]), quiet=None)
+    event = replace(point, acting=point.conditions.pair[[condition]], acts=condition, quiet=None)
     return [*before, event, replace(point, states=on, h_rate=None, r_rate=None, load_rate=None)]
 
 

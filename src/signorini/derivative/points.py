@@ -7,7 +7,7 @@ the end of a straight part of the loads or of an increment, whose load is given.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -27,7 +27,6 @@ from signorini.derivative.conditions import (
 from signorini.derivative.interface_system import InterfaceSystem, PairStates
 from signorini.derivative.quiet_ends import QuietEnd
 from signorini.derivative.space_conditions import (
-    events_of,
     space_conditions,
     space_slips,
 )
@@ -62,6 +61,7 @@ class TapePoint:
     at_rest : whether it is where the history begins, in the states that pairs are in from there on
     displacement : (dofs,) at the end of an increment, where the history has found them; None elsewhere
     acting : (m,) pairs whose event it is; empty where the load is given
+    acts : number of the condition that vanishes there, where it is known; None: that which does so most closely
     increment : (n,) or all: whether the friction of a pair in the piece is that of its end, as in an increment
     """
 
@@ -82,6 +82,7 @@ class TapePoint:
     trials: tuple[TapePoint, ...] = ()
     passes: bool = False
     at_rest: bool = False
+    acts: int | None = None
     displacement: Array | None = None
 
     @property
@@ -143,7 +144,7 @@ class TapePoint:
             Where it comes to zero without speed.
         """
         assert self.rates is not None
-        found = [event for event in self._events() if event.rate < 0.0]
+        found = [event for event in self._events if event.rate < 0.0]
         if not found:
             raise InputError(f"the event at load factor {self.load_factor:.9g} has no pair that goes through it")
         first = min(found, key=lambda event: abs(event.value / event.rate))
@@ -158,10 +159,13 @@ class TapePoint:
         assert self.rates is not None
         return max(float(np.abs(self.rates[0][0]).max()), float(np.abs(self.rates[1]).max()))
 
-    def _events(self) -> Iterator[PieceEvent]:
-        """The conditions of the acting pairs."""
+    @property
+    def _events(self) -> Iterable[PieceEvent]:
+        """The conditions of the acting pairs, or that which is known to be the event."""
+        if self.acts is not None:
+            return [self.conditions.event(self.acts)]
         if self.states.codes is None:
-            return events_of(self.conditions, self.acting)
+            return map(self.conditions.event, np.flatnonzero(np.isin(self.conditions.pair, self.acting)).tolist())
         return chain.from_iterable(options(self.piece_end, int(pair)) for pair in self.acting)
 
     @cached_property

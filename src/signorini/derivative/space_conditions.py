@@ -17,7 +17,6 @@ from signorini.derivative.conditions import (
     ConditionRow,
     PieceConditions,
     PieceEnd,
-    PieceEvent,
     gathered,
     kink_rows,
 )
@@ -97,18 +96,6 @@ def acting_pairs(known: PieceConditions, start: tuple[Array, Array], end: PieceE
     before = known.change(start[0] - end.h, start[1] - end.r)  # by how much it was larger
     comes = (np.abs(known.value) <= _WIDTH * (end.law.scale or 1.0)) & (before > 2.0 * np.abs(known.value))
     return np.unique(known.pair[comes])
-
-
-def events_of(known: PieceConditions, pairs: IntArray) -> Iterator[PieceEvent]:
-    """The conditions of some pairs, as events."""
-    for k in np.flatnonzero(np.isin(known.pair, pairs)):
-        numbers = {
-            name: float(getattr(known, name)[k])
-            for name in ("gap", "pressure", "start", "slope", "kink", "value", "rate")
-        }
-        yield PieceEvent(
-            pair=int(known.pair[k]), branch=int(known.branch[k]), friction=known.friction[:, k].copy(), **numbers
-        )
 
 
 def _line(law: ContactProblem) -> BoolArray:
