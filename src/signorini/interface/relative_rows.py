@@ -11,6 +11,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, BoolArray, IntArray, scaled_rows
 from signorini.fem.obstacles import carried, placed
 from signorini.fem.space import Space
+from signorini.interface.coupling import along
 from signorini.interface.hoop import hoop_rows
 from signorini.interface.pairing import Pairs
 from signorini.model.model import Model
@@ -65,10 +66,10 @@ def _sliding_rows(closing: tuple[sp.csr_array, ...], normals: Array, axes: Array
     In the plane that is the exact turn by a right angle: where the weights of the gap follow the normals along a curved
     side, those of the sliding follow its tangents, and a uniform friction passes as exactly as a uniform pressure.
     """
-    d = axes.shape[1]
-    turn = axes[:, :, None] * normals[:, None] - normals[:, :, None] * axes[:, None]
-    each = ((scaled_rows(closing[j], turn[:, i, j]) for j in range(d) if j != i) for i in range(d))
-    return tuple(sp.csr_array(sum(others, first)) for first, *others in each)
+    onto, aside = along(closing, normals), along(closing, axes)
+    return tuple(
+        sp.csr_array(scaled_rows(onto, axes[:, i]) - scaled_rows(aside, normals[:, i])) for i in range(axes.shape[1])
+    )
 
 
 def _with_obstacles(space: Space, model: Model, carrier: IntArray, weights: tuple[sp.csr_array, ...]) -> sp.csr_array:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
-from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -194,9 +193,9 @@ class Model(Drawable):
         """Of every body, length; 1 in models that have none."""
         return [self.thickness if body.thickness is None else body.thickness for body in self.bodies]
 
-    @cached_property
+    @property
     def cell_thickness(self) -> Array:
-        """(m,) Thickness of every cell, length, kept: groups of cells ask one by one."""
+        """(m,) Thickness of every cell, length."""
         return np.array(self.thicknesses)[self.body_of_cells()]
 
     def _refuse_thickness(self, found: float, where: tuple[str | int, ...]) -> None:
