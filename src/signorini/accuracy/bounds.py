@@ -28,7 +28,7 @@ few pairs, whose errors are those of the ends alone."""
 SHARE_OF_ROOM, SMALLEST_GROWTH = 0.9, 1.2
 """Of the nodes that a mesh may have: what it is made for where errors ask for more; the least growth worth a mesh."""
 
-HALVED = {2: 1.4, 3: 3.5}
+MORE_NODES = {2: 1.4, 3: 3.5}
 """How many times the nodes of a mesh it has, about, where the facets that touch are halved, which outputs ask for."""
 
 LEVELS = 40
@@ -94,7 +94,7 @@ class Bounds:
         """
         request, d, error = self._request, model.dimension, found.of(self._request.of)
         norm = isinstance(request.of, str)
-        even, in_space, halved = d == PLANE, norm and d == IN_SPACE, 1.0 if norm else HALVED[d]
+        even, in_space, halved = d == PLANE, norm and d == IN_SPACE, 1.0 if norm else MORE_NODES[d]
         least, most = LEAST_GROWTH if norm else SMALLEST_GROWTH, MOST_GROWTH
         lacks = min(max(error / request.error / (SHARE_IN_SPACE if in_space else SAFE_SHARE), 1.0), 1e6)
         needed = lacks ** (1.0 / self._power(found, model, levels))

@@ -164,7 +164,7 @@ class BodyChange:
         for name in self.loads.keys() & sums.weighted.keys():
             found += float(self.loads[name] @ sums.weighted[name])
         if self._by_cells and not len(self.prepared.constraints.dependent):
-            return found - self._of_cells(own, adjoint, (part.of_cells() for part in (sums,)))
+            return found - self._of_cells(own, adjoint, map(ContactSums.of_cells, [sums]))
         return found - sums.of_stiffness(self.stiffness)
 
     def _by_states(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:

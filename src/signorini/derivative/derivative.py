@@ -100,12 +100,12 @@ class Derivative(DirectionalDerivative):
         return float(self._all(kind)[name])
 
     def sides(self, parameter: str) -> tuple[float, float]:
-        """The derivatives by a parameter, ``kind.name``, downwards and upwards; the same but at an event at the end.
+        """The derivatives by a parameter, ``kind.name``, downwards and upwards; the same but at an event.
 
         Raises
         ------
         InputError
-            Where pairs share an event on the way, or one is about to close at the end: then one side is not known.
+            Where one of both is not known.
         """
         kind, name = split(parameter)
         return self.to_sides(self._history.change(kind, name), self._given(kind, name), f"'{parameter}'")
@@ -172,7 +172,7 @@ class Derivative(DirectionalDerivative):
         return self.one(*self._profile(contact, change), "the derivative by the profile", "profile_sides")
 
     def profile_sides(self, contact: str, change: ArrayLike) -> tuple[float, float]:
-        """The derivatives by a profile, as of `profile`, downwards and upwards; the same but at an event at the end.
+        """The derivatives by a profile, as of `profile`, downwards and upwards; the same but at an event.
 
         Raises
         ------

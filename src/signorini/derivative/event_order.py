@@ -19,9 +19,9 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.derivative.forward import ForwardWalk, change_of_conditions
 from signorini.derivative.interface_system import PairStates
-from signorini.derivative.points import GRAZES, TapePoint
+from signorini.derivative.points import GRAZES, ZERO, TapePoint
 from signorini.derivative.space_conditions import states_of_piece
-from signorini.derivative.validity import SHARED_EVENT, ZERO, on_edge
+from signorini.derivative.validity import SHARED_EVENT, on_edge
 from signorini.engine.tape import Leg
 from signorini.errors import InputError
 from signorini.friction.history import PathSettings, PathState
@@ -181,7 +181,7 @@ class _Piece:
 
     def at(self, part: float) -> Array:
         """(m,) What the change makes of the conditions a part of the leg away, per unit."""
-        return np.asarray(self.grows + part * self.rates if part else self.grows)
+        return np.asarray(self.grows + part * self.rates)
 
     def parts(self, end: float) -> Array:
         """(m,) Parts of the leg at which conditions vanish that do before an end, 0 or inf; inf of others."""

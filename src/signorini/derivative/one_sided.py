@@ -60,13 +60,13 @@ def beside(
             return in_order(-1.0), in_order(1.0)
         except InputError as error:
             raise InputError(f"{words}; {error}") from error
-    across = _beyond(view, found[0].condition, legs, last) if len(found) == 1 and found[0].point == last else None
+    across = _beyond(view, found[0].condition, legs) if len(found) == 1 and found[0].point == last else None
     if across is None:
         raise InputError(words)
     return (across, points) if found[0].change > 0.0 else (points, across)
 
 
-def _beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) -> list[TapePoint] | None:
+def _beyond(view: HistoryView, condition: int, legs: Sequence[Leg]) -> list[TapePoint] | None:
     """The points of a history on the other side of an event at their end; None where that is not known.
 
     Parameters
@@ -74,11 +74,10 @@ def _beyond(view: HistoryView, condition: int, legs: Sequence[Leg], last: int) -
     view : the history
     condition : number of that which vanishes at the last point
     legs : straight parts of the history
-    last : number of that point
     """
     *before, point = view.points
     if point.rates is None or point.passes:
-        states = _nudged(point, view.motions(last - 1)[1:] if last else None, condition)
+        states = _nudged(point, view.motions(len(before) - 1)[1:] if before else None, condition)
         return [*before, replace(point, states=states)]
     on = _gone_on(point, legs[point.leg])
     if on is None:

@@ -37,7 +37,8 @@ from signorini.solution.state import LoadPoint
 GRAZES = 1e-9
 """Of the fastest condition of a piece: one that hardly moves."""
 
-_VANISHES = 1e-10  # of the data: a condition that vanishes with another
+ZERO = 1e-10
+"""Of the data of the law: a gap, a force or another condition that is none."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -179,7 +180,7 @@ class TapePoint:
             return []
         known, found = self.conditions, list[int]()
         falls = known.rate < -GRAZES * self.fastest
-        vanish = falls & in_space & (np.abs(known.value) <= _VANISHES * (self.system.law.scale or 1.0))
+        vanish = falls & in_space & (np.abs(known.value) <= ZERO * (self.system.law.scale or 1.0))
         for pair in self.acting:
             own = np.flatnonzero((known.pair == pair) & falls)
             if pair != self.event.pair and len(own):

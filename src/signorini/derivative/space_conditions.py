@@ -20,7 +20,7 @@ from signorini.derivative.conditions import (
     gathered,
     kink_rows,
 )
-from signorini.derivative.interface_system import PairStates
+from signorini.derivative.interface_system import InterfaceSystem, PairStates
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, STICK, UNDECIDED
 
@@ -67,6 +67,19 @@ def states_of_piece(
         branch=law.pieces.branch(y[0]),
         tangent=tangent,
     )
+
+
+def states_between(
+    system: InterfaceSystem, codes: IntArray, start: tuple[Array, Array], end: tuple[Array, Array]
+) -> PairStates:
+    """The states of pairs in a piece, in the plane by their codes alone.
+
+    Parameters
+    ----------
+    system : of the pairs
+    codes, start, end : as of `states_of_piece`
+    """
+    return system.states_of_codes(codes) if system.directions == 2 else states_of_piece(system.law, codes, start, end)
 
 
 def space_conditions(end: PieceEnd) -> PieceConditions:

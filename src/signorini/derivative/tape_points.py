@@ -15,7 +15,7 @@ from signorini.derivative.interface_system import InterfaceSystem, PairStates
 from signorini.derivative.locked_bolts import LockedBolts
 from signorini.derivative.points import TapePoint
 from signorini.derivative.quiet_ends import quiet_end
-from signorini.derivative.space_conditions import acting_pairs, states_of_piece
+from signorini.derivative.space_conditions import acting_pairs, states_between, states_of_piece
 from signorini.derivative.step_friction import in_force
 from signorini.engine.tape import Leg, Tape
 from signorini.errors import InputError
@@ -80,7 +80,7 @@ def _on_path(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoi
 
 def _pressed(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoint]:
     """What overlaps at the beginning of a leg that was followed, and presses: an increment."""
-    start, space = leg.start, system.directions == 3
+    start = leg.start
     assert start is not None
     if start.r.any() and not leg.before.forces.any():
         none = np.zeros_like(start.h)
@@ -90,9 +90,7 @@ def _pressed(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePoi
             load=system.posed(leg.before.point),
             load_factor=leg.low,
             part=0.0,
-            states=states_of_piece(system.law, start.state, (none, none), (start.h, start.r))
-            if space
-            else system.states_of_codes(start.state),
+            states=states_between(system, start.state, (none, none), (start.h, start.r)),
             h=start.h,
             r=start.r,
             h_rate=None,

@@ -257,7 +257,7 @@ class DirectionalDerivative:
         return self.along(change) + self.through_start(GapRate.of(change), 1.0)
 
     def to_sides(self, change: Change, size: float, what: str) -> tuple[float, float]:
-        """The derivatives along a change, downwards and upwards; the same but at an event at the end.
+        """The derivatives along a change, downwards and upwards; the same but at an event.
 
         Parameters
         ----------

@@ -21,9 +21,9 @@ from signorini.arrays import Array, BoolArray, extent
 from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import GapChange
 from signorini.derivative.moduli import ModulusChange
-from signorini.derivative.points import TapePoint
+from signorini.derivative.points import ZERO, TapePoint
 from signorini.derivative.recursion import Change
-from signorini.derivative.space_conditions import states_of_piece
+from signorini.derivative.space_conditions import states_between
 from signorini.derivative.validity import PathEdge
 from signorini.derivative.view import HistoryView
 from signorini.engine.floating_bodies import approached, resting
@@ -33,7 +33,6 @@ from signorini.engine.tape import Leg
 from signorini.errors import InputError, SolveFailed
 from signorini.friction.history import Segment
 
-_ZERO = 1e-10  # of the data of the law: a gap, or a force, that is none
 _PARTS = (1e-2, 1e-3, 1e-4)  # of how far half a piece goes: larger than what a path takes two events together in
 _UNTIL = 0.5  # of the first piece: where motions are compared
 _SAME_MOTION = 1e-6  # of the largest, or of the change: motions that are in proportion to it
@@ -132,7 +131,7 @@ class TouchingStart:
         leg, system = self.legs[0], self.points[0].system
         found = np.zeros(len(system.condensed.active), dtype=np.bool_)
         if leg.start is not None and not leg.before.displacement.any() and not leg.before.forces.any():
-            none = _ZERO * (system.law.scale or 1.0)
+            none = ZERO * (system.law.scale or 1.0)
             found[system.active] = (np.abs(leg.start.h[0]) <= none) & (np.abs(leg.start.r).max(axis=0) <= none)
         return found & system.prepared.interface.friction.rubs
 
@@ -270,9 +269,7 @@ class TouchingStart:
         """Whether pairs end in the states of the first piece."""
         system, (before, last) = first.system, segment.pieces[-2:]
         assert last.state is not None
-        if first.states.codes is not None:
-            return system.states_of_codes(last.state.state).same(first.states)
-        return states_of_piece(system.law, last.state.state, (before.h, before.r), (last.h, last.r)).same(first.states)
+        return states_between(system, last.state.state, (before.h, before.r), (last.h, last.r)).same(first.states)
 
 
 def _in_proportion(one: Array, two: Array) -> bool:

@@ -10,15 +10,12 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.derivative.forward import PointChange, change_of_conditions
-from signorini.derivative.points import TapePoint
+from signorini.derivative.points import ZERO, TapePoint
 from signorini.derivative.view import HistoryView
 from signorini.solution.sensitivities import Validity
 
 SHARED_EVENT = 1e-7
 """Of the largest move of an event: by how much events that share a load may move apart."""
-
-ZERO = 1e-10
-"""Of the data of the law: a condition that no parameter can be near to."""
 
 
 def validity(view: HistoryView, changes: Sequence[PointChange], at_start: Sequence[PathEdge]) -> Validity:

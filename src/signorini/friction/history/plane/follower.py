@@ -95,8 +95,7 @@ class PlaneFollower(PathFollower):
     def rates_at(self, state: PathState) -> Rates | NoRates:
         """Rates along the way behind a state, wherever that is; why there are none."""
         self.now, self.rates, self.acting = self._entered(state), None, np.zeros(0, dtype=np.int64)
-        law = self._law()
-        return find_rates(self.responses, law, self.load, self.now.state, self._guesses(law))
+        return self._found(self._law())
 
     def departs(self) -> bool:
         """One piece in which acting pairs are in a next state, not in those that led here; whether there is one."""
@@ -132,16 +131,20 @@ class PlaneFollower(PathFollower):
 
     def _turn(self) -> NoRates | None:
         """Find the rates from here on; what changes its state is an event."""
-        state, law = self.now.state, self._law()
+        law = self._law()
         driven = None if self.rates is None else drive(self.responses, law, self.load, self.rates, self.acting)
         if isinstance(driven, Rates):
             self._enter(driven)
             return None
-        found = find_rates(self.responses, law, self.load, state, self._guesses(law))
+        found = self._found(law)
         if isinstance(found, NoRates):
             return found if driven is None else replace(found, proof=f"{driven}; {found.proof}")
         self._enter(found)
         return None
+
+    def _found(self, law: RateLaw) -> Rates | NoRates:
+        """Rates from here on that obey a law."""
+        return find_rates(self.responses, law, self.load, self.now.state, self._guesses(law))
 
     def _law(self) -> RateLaw:
         """The law of the rates here."""

@@ -103,7 +103,7 @@ class SpaceFollower(PathFollower):
             return None
         if self._leaves:
             return NoRates(proof=words, proved=True)
-        found = find_rates(self.rate_problem, self.now, self.near)
+        found = self.rates_at(self.now)
         tried = self.tried
         if isinstance(found, Rates) and self._along(found):
             return None
@@ -203,7 +203,7 @@ class SpaceFollower(PathFollower):
 
     def stuck(self) -> bool:
         """Whether it is known beforehand that no rates lead on."""
-        found = find_rates(self.rate_problem, self.now, self.near)
+        found = self.rates_at(self.now)
         return isinstance(found, NoRates) and found.proved
 
     def crosses(self, before: PathState) -> bool:
