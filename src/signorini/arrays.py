@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     import scipy.sparse as sp
 
 Array = NDArray[np.float64]
+SingleArray = NDArray[np.float32]
+RealArray = NDArray[np.floating[Any]]
 IntArray = NDArray[np.integer[Any]]
 Int32Array = NDArray[np.int32]
 BoolArray = NDArray[np.bool_]

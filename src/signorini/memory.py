@@ -147,6 +147,11 @@ def apart(size: int) -> Array:
     ----------
     size : how many; below a megabyte they come from the C library
 
+    Raises
+    ------
+    MemoryError
+        Where the system has no room for them.
+
     Examples
     --------
     >>> apart(3).shape, apart(200_000).shape
@@ -154,7 +159,10 @@ def apart(size: int) -> Array:
     """
     if size < _PAGES_FROM:
         return np.empty(size)
-    return np.frombuffer(mmap.mmap(-1, 8 * size), dtype=np.float64)
+    try:
+        return np.frombuffer(mmap.mmap(-1, 8 * size), dtype=np.float64)
+    except OSError as error:
+        raise MemoryError(f"{8e-9 * size:.3g} GB at once") from error
 
 
 def out_of_memory(error: MemoryError) -> str:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Multigrid of bodies and the springs of their contacts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -8,10 +10,13 @@ import scipy.sparse as sp
 from signorini.engine.prepare import prepare
 from signorini.gallery.cubes import cubes
 from signorini.iterative.aggregation import aggregated, largest_eigenvalue
+from signorini.iterative.multigrid import Multigrid
 from signorini.iterative.springs import PairSprings
 from signorini.linalg._sweeps import prolong, restrict, sweep_back, sweep_from_zero
 from signorini.linalg.krylov import conjugate_gradients
 from signorini.linalg.symmetric_blocks import SymmetricBlocks
+
+SINGLE = 3e-7  # of the largest entry: rounding of cycles, which are in single precision
 
 
 @pytest.fixture(scope="module")
@@ -91,8 +96,21 @@ def added(bodies, own):
 def test_a_cycle_is_symmetric_and_positive(bodies):
     cycle = bodies.preconditioner.under(bodies.B, springs(bodies, 1.0, 0.1))
     x, y = np.random.default_rng(1).standard_normal((2, bodies.K.shape[0]))
-    assert x @ cycle(y) == pytest.approx(y @ cycle(x), rel=1e-10)
+    assert x @ cycle(y) == pytest.approx(y @ cycle(x), rel=10 * SINGLE)
     assert x @ cycle(x) > 0
+
+
+@pytest.mark.parametrize("force", [1e-60, 1e60])
+@pytest.mark.parametrize("stiffness", [1e-60, 1e60])
+def test_single_precision_shows_in_no_unit(bodies, stiffness, force):
+    own = springs(bodies, 1.0, 0.1)
+    b = np.random.default_rng(5).standard_normal(bodies.K.shape[0])
+    cycle = bodies.preconditioner.under(bodies.B, own)
+    K = replace(bodies.K, lower=stiffness * bodies.K.lower, diagonal=stiffness * bodies.K.diagonal)
+    stiff = PairSprings(normal=stiffness * own.normal, tangent=stiffness * own.tangent)
+    other = Multigrid(K, bodies.preconditioner._near_null, bodies.B).under(bodies.B, stiff)
+    x = cycle(b)
+    np.testing.assert_allclose(other(force * b) * (stiffness / force), x, atol=10 * SINGLE * np.abs(x).max())
 
 
 def test_springs_replace_those_before_at_the_nodes_of_contacts(bodies):
@@ -101,9 +119,10 @@ def test_springs_replace_those_before_at_the_nodes_of_contacts(bodies):
         own = springs(bodies, *parts)
         level = bodies.preconditioner.under(bodies.B, own).levels[0]
         whole = (bodies.K.whole + added(bodies, own)).toarray()
-        np.testing.assert_allclose(level.A.whole.toarray(), whole, atol=1e-12 * whole.max())
+        unit = bodies.K.diagonal.max()
+        np.testing.assert_allclose(unit * level.A.whole.toarray(), whole, atol=SINGLE * whole.max())
         np.testing.assert_allclose(
-            level.inverses @ level.A.diagonal, np.tile(np.eye(3), (len(whole) // 3, 1, 1)), atol=1e-10
+            level.inverses @ level.A.diagonal, np.tile(np.eye(3), (len(whole) // 3, 1, 1)), atol=10 * SINGLE
         )
 
 
@@ -114,7 +133,7 @@ def test_springs_of_some_pairs_are_those_of_fewer_bodies(bodies):
     own = springs(fewer, 1.0, 0.5)
     level = bodies.preconditioner.under(fewer.B, own).levels[0]
     whole = (bodies.K.whole + added(fewer, own)).toarray()
-    np.testing.assert_allclose(level.A.whole.toarray(), whole, atol=1e-12 * whole.max())
+    np.testing.assert_allclose(bodies.K.diagonal.max() * level.A.whole.toarray(), whole, atol=SINGLE * whole.max())
 
 
 @pytest.mark.parametrize("parts", [(0.0, 0.0), (1.0, 0.0), (1.0, 0.1), (1.0, 1.0)])

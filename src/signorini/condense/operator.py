@@ -17,15 +17,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import blas, lapack
 
-from signorini.arrays import Array, BoolArray, frozen, read_only
+from signorini.arrays import Array, BoolArray, SingleArray, frozen, read_only
 from signorini.condense.basis import make_basis
 from signorini.condense.body_blocks import inverse_of
 from signorini.errors import InputError
-
-SingleArray = NDArray[np.float32]
 
 UNRESISTED = 1e-14
 """Stiffness, relative to the interface stiffness D, below which a motion counts as rigid."""

@@ -5,8 +5,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array, Int32Array
-from signorini.compilation import kernel
+from signorini.arrays import Array, Int32Array, RealArray
+from signorini.compilation import kernel, part
+
+
+@part()
+def _add(motion: Array, force: Array, block: RealArray) -> None:
+    """Add ``motion' force`` to a block, (e, e); motion and force (d, e)."""
+    for p in range(block.shape[0]):
+        for q in range(block.shape[1]):
+            for r in range(len(force)):
+                block[p, q] += motion[r, p] * force[r, q]
 
 
 @kernel()
@@ -14,7 +23,7 @@ def add_springs(
     motions: tuple[Int32Array, Int32Array, Array],
     springs: Array,
     matrix: tuple[Int32Array, Int32Array],
-    lower: Array,
+    lower: RealArray,
     diagonal: Array,
 ) -> None:
     """Add ``M' S M`` to a symmetric matrix whose pattern has room for it.
@@ -41,11 +50,8 @@ def add_springs(
                 row, column = nodes[s], nodes[t]
                 if column > row:
                     continue
-                target, place = diagonal, row
                 if column < row:
-                    target = lower
                     place = indptr[row] + np.searchsorted(indices[indptr[row] : indptr[row + 1]], column)
-                for p in range(e):
-                    for q in range(e):
-                        for r in range(d):
-                            target[place, p, q] += data[s, r, p] * force[r, q]
+                    _add(data[s], force, lower[place])
+                else:
+                    _add(data[s], force, diagonal[row])

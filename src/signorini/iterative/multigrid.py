@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, SingleArray
 from signorini.iterative._spring_sums import add_springs
 from signorini.iterative.aggregation import CoarsenedMatrix, aggregated
 from signorini.iterative.springs import PairSprings
@@ -25,6 +25,9 @@ _FREE_MOTION = 1e-13  # of the largest stiffness: motions that nothing resists
 class SprungLevel:
     """A level to whose stiffness springs of contacts are added in place, at the few nodes that contacts move.
 
+    What is read in every cycle is in single precision; the diagonal is not, since its blocks are inverted, of which
+    some have motions that nothing resists.
+
     Attributes
     ----------
     level : the stiffness with the pattern of all springs, and the way to the next coarser level
@@ -37,7 +40,7 @@ class SprungLevel:
     level: MultigridLevel
     nodes: IntArray
     own: IntArray
-    bodies: Array
+    bodies: SingleArray
     held: Array
 
     def spring(self, motions: Any, springs: Array) -> None:
@@ -71,6 +74,7 @@ class Multigrid:
 
     def __init__(self, K: SymmetricBlocks, near_null: Array, B: sp.csr_array) -> None:
         self._K, self._near_null, self._B = K, near_null, B
+        self._unit = float(K.diagonal.max(initial=0.0)) or 1.0
         self._seen: tuple[sp.csr_array, list[Any]] | None = None
 
     def under(self, B: sp.csr_array, springs: PairSprings) -> VCycle:
@@ -81,7 +85,7 @@ class Multigrid:
         B : motions of the pairs, all or some of them
         springs : of these pairs
         """
-        each, (sprung, coarsest) = springs.each, self._made
+        each, (sprung, coarsest) = springs.each / self._unit, self._made
         *moved, last = self._motions(B)
         for level, motions in zip(sprung, moved, strict=True):
             level.spring(motions, each)
@@ -89,7 +93,8 @@ class Multigrid:
         pairs = sp.bsr_array((each, count[:-1], count), shape=(last.shape[0], last.shape[0]))
         whole = coarsest + (last.T @ (pairs @ last)).toarray()
         inverse = np.linalg.pinv(whole, rcond=_FREE_MOTION, hermitian=True)
-        return VCycle(levels=tuple(level.level for level in sprung), coarsest=lambda b: np.asarray(inverse @ b))
+        levels = tuple(level.level for level in sprung)
+        return VCycle(levels=levels, coarsest=lambda b: np.asarray(inverse @ b), unit=self._unit)
 
     def _motions(self, B: sp.csr_array) -> list[Any]:
         """Motions of the pairs in terms of the unknowns of every level, the finest first, in blocks of a pair."""
@@ -102,8 +107,8 @@ class Multigrid:
         """Levels with room for springs but the coarsest, the finest first; and the coarsest of the bodies alone."""
         levels, coarsest = aggregated(self._K, self._near_null, _COARSEST_BLOCKS)
         motions = _on_levels(self._B, self._K.size, [each.P for each in levels])
-        made = [_sprung(level, moved) for level, moved in zip(levels, motions[:-1], strict=True)]
-        return made, coarsest.whole.toarray()
+        made = [_sprung(level, moved, self._unit) for level, moved in zip(levels, motions[:-1], strict=True)]
+        return made, coarsest.whole.toarray() / self._unit
 
 
 def _on_levels(B: sp.csr_array, d: int, prolongations: list[Any]) -> list[Any]:
@@ -116,13 +121,14 @@ def _on_levels(B: sp.csr_array, d: int, prolongations: list[Any]) -> list[Any]:
     return motions
 
 
-def _sprung(level: CoarsenedMatrix, motions: Any) -> SprungLevel:
+def _sprung(level: CoarsenedMatrix, motions: Any, unit: float) -> SprungLevel:
     """A level with room for springs between all nodes that a pair moves.
 
     Parameters
     ----------
     level : of the bodies alone
     motions : of the pairs, in blocks
+    unit : of what the level has of both
     """
     A, m = level.A, len(level.A.diagonal)
     ones, count = np.ones(len(motions.indices)), len(motions.indptr) - 1
@@ -134,20 +140,21 @@ def _sprung(level: CoarsenedMatrix, motions: Any) -> SprungLevel:
     number = sp.csr_array((np.arange(1.0, far), A.indices, A.indptr), shape=(m, m))
     both = sp.csr_array(number + between)  # numbers of blocks of A, from 1 on, and where springs may be
     both.sort_indices()
-    lower = np.zeros((both.nnz, A.size, A.size))
-    lower[both.data % far > 0.0] = A.lower
+    lower = np.zeros((both.nnz, A.size, A.size), np.float32)
+    lower[both.data % far > 0.0] = A.lower / unit
     own = np.flatnonzero(both.data >= far)
     indptr, indices = (each.astype(np.int32, copy=False) for each in (both.indptr, both.indices))
-    made = SymmetricBlocks(indptr=indptr, indices=indices, lower=lower, diagonal=A.diagonal.copy())
+    diagonal = A.diagonal / unit
+    made = SymmetricBlocks(indptr=indptr, indices=indices, lower=lower, diagonal=diagonal)
     return SprungLevel(
-        level=MultigridLevel(A=made, P=level.P, inverses=_inverses(A.diagonal)),
+        level=MultigridLevel(A=made, P=level.P.astype(np.float32), inverses=_inverses(diagonal)),
         nodes=nodes,
         own=own,
         bodies=lower[own],
-        held=A.diagonal[nodes],
+        held=diagonal[nodes],
     )
 
 
-def _inverses(blocks: Array) -> Array:
+def _inverses(blocks: Array) -> SingleArray:
     """(m, d, d) Of symmetric blocks, of motions that something resists."""
-    return np.asarray(np.linalg.pinv(blocks, rcond=_FREE_MOTION, hermitian=True), dtype=np.float64)
+    return np.asarray(np.linalg.pinv(blocks, rcond=_FREE_MOTION, hermitian=True), dtype=np.float32)

@@ -4,14 +4,15 @@
 Row i has the blocks ``lower[indptr[i]:indptr[i + 1]]``, (d, d) each, in the columns ``indices[...]`` before i, and
 ``diagonal[i]``. What a row has beyond its diagonal is what later rows have before theirs, transposed. A tuple of d
 items tells the compiler how long the inner loops are; the blocks of nodes in space, d = 3, are written out, so that
-sums stay in registers.
+sums stay in registers. Sums have the precision of what is summed: they begin with their first term and not with a
+zero, which would be of double precision.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array, Int32Array
+from signorini.arrays import Int32Array, RealArray
 from signorini.compilation import kernel, part
 
 _FREE_SUMS = {"contract", "reassoc", "nsz"}  # of the compiler: for sums that may be formed in any order
@@ -19,7 +20,13 @@ _FREE_SUMS = {"contract", "reassoc", "nsz"}  # of the compiler: for sums that ma
 
 @part(fastmath=_FREE_SUMS)
 def _taken(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, i: int, x: Array, left: Array
+    block: tuple[int, ...],
+    indptr: Int32Array,
+    indices: Int32Array,
+    lower: RealArray,
+    i: int,
+    x: RealArray,
+    left: RealArray,
 ) -> None:
     """Take from left, (d,), what row i has before its diagonal, times x."""
     d = len(block)
@@ -36,15 +43,21 @@ def _taken(
         for k in range(indptr[i], indptr[i + 1]):
             j = indices[k]
             for p in range(d):
-                total = 0.0
-                for q in range(d):
+                total = lower[k, p, 0] * x[j, 0]
+                for q in range(1, d):
                     total += lower[k, p, q] * x[j, q]
                 left[p] -= total
 
 
 @part(fastmath=_FREE_SUMS)
 def _given(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, i: int, x: Array, rest: Array
+    block: tuple[int, ...],
+    indptr: Int32Array,
+    indices: Int32Array,
+    lower: RealArray,
+    i: int,
+    x: RealArray,
+    rest: RealArray,
 ) -> None:
     """Take from rest, (m, d), what the rows before i have in the column of i, times x[i]."""
     d = len(block)
@@ -59,26 +72,26 @@ def _given(
         for k in range(indptr[i], indptr[i + 1]):
             j = indices[k]
             for q in range(d):
-                total = 0.0
-                for p in range(d):
+                total = lower[k, 0, q] * x[i, 0]
+                for p in range(1, d):
                     total += lower[k, p, q] * x[i, p]
                 rest[j, q] -= total
 
 
 @part(fastmath=_FREE_SUMS)
-def _times(block: tuple[int, ...], matrix: Array, given: Array, result: Array) -> None:
+def _times(block: tuple[int, ...], matrix: RealArray, given: RealArray, result: RealArray) -> None:
     """Put a block times (d,) into result, (d,)."""
     for p in range(len(block)):
-        total = 0.0
-        for q in range(len(block)):
+        total = matrix[p, 0] * given[0]
+        for q in range(1, len(block)):
             total += matrix[p, q] * given[q]
         result[p] = total
 
 
 @kernel(fastmath=_FREE_SUMS)
 def product(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, diagonal: Array, x: Array
-) -> Array:
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: RealArray, diagonal: RealArray, x: RealArray
+) -> RealArray:
     """``A x``, (m, d).
 
     Parameters
@@ -88,7 +101,7 @@ def product(
     x : (m, d)
     """
     rest = np.zeros_like(x)
-    left = np.empty(len(block))
+    left = np.empty(len(block), x.dtype)
     for i in range(len(x)):
         for p in range(len(block)):
             left[p] = 0.0
@@ -104,8 +117,8 @@ def product(
 
 @kernel(fastmath=_FREE_SUMS)
 def sweep_from_zero(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, inverses: Array, b: Array
-) -> tuple[Array, Array]:
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: RealArray, inverses: RealArray, b: RealArray
+) -> tuple[RealArray, RealArray]:
     """A forward sweep of Gauss-Seidel from zero over ``A x = b``: x and the residual ``b - A x``, both (m, d).
 
     What is left before the diagonal is what is not solved for yet, so that the residual is made of the other half.
@@ -118,7 +131,7 @@ def sweep_from_zero(
     b : (m, d)
     """
     x, residual = np.empty_like(b), np.zeros_like(b)
-    left = np.empty(len(block))
+    left = np.empty(len(block), b.dtype)
     for i in range(len(b)):
         for p in range(len(block)):
             left[p] = b[i, p]
@@ -130,7 +143,13 @@ def sweep_from_zero(
 
 @kernel(fastmath=_FREE_SUMS)
 def sweep_back(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: Array, inverses: Array, b: Array, x: Array
+    block: tuple[int, ...],
+    indptr: Int32Array,
+    indices: Int32Array,
+    lower: RealArray,
+    inverses: RealArray,
+    b: RealArray,
+    x: RealArray,
 ) -> None:
     """A backward sweep over ``A x = b`` in place.
 
@@ -140,7 +159,7 @@ def sweep_back(
     x : (m, d)
     """
     rest = b.copy()
-    left = np.empty(len(block))
+    left = np.empty(len(block), b.dtype)
     for i in range(len(b) - 1, -1, -1):
         for p in range(len(block)):
             left[p] = rest[i, p]
@@ -151,7 +170,7 @@ def sweep_back(
 
 @kernel(fastmath=_FREE_SUMS)
 def prolong(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, coarse: Array, x: Array
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: RealArray, coarse: RealArray, x: RealArray
 ) -> None:
     """Add ``P coarse`` to x, (m, d).
 
@@ -165,15 +184,15 @@ def prolong(
         for k in range(indptr[i], indptr[i + 1]):
             j = indices[k]
             for p in range(len(block)):
-                total = 0.0
-                for q in range(coarse.shape[1]):
+                total = data[k, p, 0] * coarse[j, 0]
+                for q in range(1, coarse.shape[1]):
                     total += data[k, p, q] * coarse[j, q]
                 x[i, p] += total
 
 
 @kernel(fastmath=_FREE_SUMS)
 def restrict(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: Array, fine: Array, coarse: Array
+    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: RealArray, fine: RealArray, coarse: RealArray
 ) -> None:
     """Add ``P' fine`` to coarse, (k, e).
 
@@ -186,7 +205,7 @@ def restrict(
         for k in range(indptr[i], indptr[i + 1]):
             j = indices[k]
             for q in range(coarse.shape[1]):
-                total = 0.0
-                for p in range(len(block)):
+                total = data[k, 0, q] * fine[i, 0]
+                for p in range(1, len(block)):
                     total += data[k, p, q] * fine[i, p]
                 coarse[j, q] += total

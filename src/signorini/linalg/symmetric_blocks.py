@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, Int32Array, IntArray
+from signorini.arrays import Array, Int32Array, IntArray, RealArray
 from signorini.linalg._lower_half import count_before, gather
 from signorini.linalg._sweeps import product
 
@@ -33,7 +33,7 @@ class SymmetricBlocks:
 
     indptr: Int32Array
     indices: Int32Array
-    lower: Array
+    lower: RealArray
     diagonal: Array
 
     @staticmethod
@@ -109,4 +109,5 @@ class SymmetricBlocks:
     def __matmul__(self, x: Array) -> Array:
         """``A x``, (n,)."""
         d = self.size
-        return product(d * (0,), self.indptr, self.indices, self.lower, self.diagonal, x.reshape(-1, d)).ravel()
+        moved = product(d * (0,), self.indptr, self.indices, self.lower, self.diagonal, x.reshape(-1, d))
+        return np.asarray(moved.ravel(), dtype=np.float64)
