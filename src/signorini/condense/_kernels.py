@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compiled loops of the condensation: of matrices between what is kept, and of dense ones."""
+"""Compiled loops of the condensation: of matrices between what is kept."""
 
 from __future__ import annotations
 
@@ -7,18 +7,6 @@ import numpy as np
 
 from signorini.arrays import Array, Int32Array, IntArray
 from signorini.compilation import kernel
-
-_TILE = 64  # rows and columns mirrored at a time
-
-
-@kernel()
-def mirror(matrix: Array) -> None:
-    """Overwrite the upper triangle by the lower, in tiles that fit the cache."""
-    for low in range(0, len(matrix), _TILE):
-        for first in range(low, len(matrix), _TILE):
-            for i in range(first, min(first + _TILE, len(matrix))):
-                for j in range(low, min(low + _TILE, i)):
-                    matrix[j, i] = matrix[i, j]
 
 
 @kernel()

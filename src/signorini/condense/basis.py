@@ -9,8 +9,8 @@ import numpy as np
 import scipy.linalg
 
 from signorini.arrays import Array
-from signorini.condense._kernels import mirror
 from signorini.condense.body_blocks import DEPENDENT
+from signorini.linalg._dense_tiles import mirror
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,7 +45,7 @@ class Basis:
         for _ in range(2):  # bodies may travel far along R
             A -= self.R @ (self.R.T @ A)
             A -= (A @ self.R) @ self.R.T
-        mirror(A)
+        mirror(A, 0, len(A))
         return leaning
 
 

@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.linalg
 import scipy.sparse as sp
-from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
-from signorini.condense._kernels import mirror
+from signorini.linalg._dense_tiles import mirror
+from signorini.linalg.shared_dense import cholesky, inverse_of_cholesky
 
 DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
 
@@ -69,7 +69,9 @@ class BodyBlocks:
 
     def inverted(self) -> BodyBlocks:
         """Blocks with their inverses, for pairs that change."""
-        return replace(self, blocks=tuple(replace(own, inverse=inverse_of(own.cholesky)) for own in self.blocks))
+        return replace(
+            self, blocks=tuple(replace(own, inverse=inverse_of_cholesky(own.cholesky)) for own in self.blocks)
+        )
 
     def compliance(self, B: sp.csr_array) -> Array:
         """``B M^-1 B^T`` of the stiffness M with its ties, (k, k), symmetric to the last digit; B (k, m)."""
@@ -78,7 +80,7 @@ class BodyBlocks:
             own = B if len(part.dofs) == B.shape[1] else sp.csr_array(B[:, part.dofs])
             seen = np.flatnonzero(np.diff(own.indptr))
             own = own if len(seen) == len(result) else own[seen]
-            inverse = inverse_of(part.cholesky) if part.inverse is None else part.inverse
+            inverse = inverse_of_cholesky(part.cholesky) if part.inverse is None else part.inverse
             half = own @ inverse.T
             del inverse  # as large as what is made of it, like all below
             half = np.ascontiguousarray(half.T)
@@ -91,7 +93,7 @@ class BodyBlocks:
         if self.across.shape[1]:
             moved = scipy.linalg.solve_triangular(self.gram, (B @ self.across).T, lower=True, check_finite=False)
             result -= moved.T @ moved
-        mirror(result)
+        mirror(result, 0, len(result))
         return result
 
 
@@ -159,18 +161,7 @@ def _block(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> BodyB
         left = np.abs(np.diag(triangle))
         Q = Q[:, : np.count_nonzero(left > DEPENDENT * left[0])]
         matrix += size * (Q @ Q.T)
-    cholesky, _ = scipy.linalg.cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
-    return BodyBlock(dofs=dofs, cholesky=cholesky)
-
-
-def inverse_of(cholesky: Array, *, overwrite: bool = False) -> Array:
-    """Of the matrix with a lower Cholesky factor, (p, p), by columns, symmetric to the last digit.
-
-    >>> inverse_of(np.array([[2.0]])).tolist()
-    [[0.25]]
-    """
-    if not len(cholesky):
-        return np.zeros((0, 0))
-    inverse, _ = lapack.dpotri(cholesky, lower=1, overwrite_c=overwrite)
-    mirror(inverse)
-    return np.asarray(inverse, dtype=np.float64)
+    failed = cholesky(matrix)
+    if failed:
+        raise np.linalg.LinAlgError(f"{failed}-th leading minor of the array is not positive definite")
+    return BodyBlock(dofs=dofs, cholesky=matrix)

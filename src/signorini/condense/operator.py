@@ -17,12 +17,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import blas, lapack
+from scipy.linalg import blas
 
 from signorini.arrays import Array, BoolArray, SingleArray, frozen, read_only
 from signorini.condense.basis import make_basis
-from signorini.condense.body_blocks import inverse_of
 from signorini.errors import InputError
+from signorini.linalg.shared_dense import cholesky, inverse_of_cholesky
 
 UNRESISTED = 1e-14
 """Stiffness, relative to the interface stiffness D, below which a motion counts as rigid."""
@@ -121,13 +121,12 @@ class InterfaceOperator:
         """(m, m) Compliance: motion per force, on what forces can move without a rigid motion."""
         G = np.asfortranarray(self.R @ self.R.T - self.W)
         G[np.diag_indices(len(G))] += 1.0
-        factor, failed = lapack.dpotrf(G, lower=1, overwrite_a=1, clean=0)
-        if failed or np.diag(factor).min(initial=1.0) ** 2 <= UNRESISTED:
+        if cholesky(G) or np.diag(G).min(initial=1.0) ** 2 <= UNRESISTED:
             raise InputError(
                 "has an eigenvalue 1 (a motion that nothing resists) beyond the rigid motions given; add that motion",
                 where=("W",),
             )
-        A = inverse_of(factor, overwrite=True).T
+        A = inverse_of_cholesky(G, overwrite=True).T
         A[np.diag_indices(len(A))] -= 1.0
         A.flags.writeable = False
         return A
@@ -140,7 +139,7 @@ class InterfaceOperator:
     @cached_property
     def W(self) -> Array:
         """(m, m) InterfaceOperator form, symmetric, spectrum in [0, 1]."""
-        W = inverse_of(self.factor).T
+        W = inverse_of_cholesky(self.factor).T
         np.negative(W, out=W)
         W += self.R @ self.R.T
         W[np.diag_indices_from(W)] += 1.0
@@ -279,9 +278,5 @@ def _cholesky(A: Array, room: Array | None = None) -> Array:
 
 def _factorise(matrix: Array | SingleArray) -> None:
     """Overwrite the lower triangle of a matrix by columns by its Cholesky factor; what is above it stays."""
-    if not len(matrix):
-        return
-    potrf = lapack.spotrf if matrix.dtype == np.float32 else lapack.dpotrf
-    _, failed = potrf(matrix, lower=1, overwrite_a=1, clean=0)
-    if failed:
+    if cholesky(matrix):
         raise np.linalg.LinAlgError("the compliance of the pairs is not positive semidefinite")

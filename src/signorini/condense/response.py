@@ -25,9 +25,9 @@ import scipy.linalg
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
-from signorini.condense._kernels import mirror
 from signorini.condense.body_blocks import BodyBlocks
 from signorini.interface.active import FreeBodies
+from signorini.linalg._dense_tiles import mirror
 from signorini.linalg.elsewhere import MatrixElsewhere
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, Reduced
@@ -172,7 +172,7 @@ class ByPairs(Response):
         all_rows = len(self.rows) == len(self.left)
         X = -(self.left if all_rows else self.left[np.ix_(self.rows, self.rows)])
         X[np.diag_indices_from(X)] = -self.diagonal[self.rows]
-        mirror(X)
+        mirror(X, 0, len(X))
         return X
 
     def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:

@@ -21,10 +21,11 @@ from numba import typeof
 from numba.core.caching import IndexDataCacheFile
 
 from signorini.compilation import UNREADABLE, compile_aside, interpreted
-from signorini.condense._kernels import block_on, felt_stiffness, mirror
+from signorini.condense._kernels import block_on, felt_stiffness
 from signorini.fem import _kernels
 from signorini.linalg import _front_solves, _fronts, _symbolic
 from signorini.linalg._blas import scratch
+from signorini.linalg._dense_tiles import mirror
 from signorini.linalg._graph import Elimination, Graph, Rows, both_ways, quotient_rows, subgraph
 from signorini.linalg.plan import RELAX, Fronts
 from signorini.model.model import Model
@@ -70,8 +71,8 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
     return [
         (felt_stiffness, (small, small, real, small, small, real, 1)),
         (block_on, (small, small, real, large, large)),
-        (mirror, (square,)),
-        (mirror, (np.zeros((2, 2), order="F"),)),
+        (mirror, (square, 0, 0)),
+        (mirror, (np.zeros((2, 2), order="F"), 0, 0)),
         (_fronts.add_interface, (rows, elimination, small, square)),
         (_front_solves.backward, (fronts, 0, 1, *solved)),
         (_front_solves.forward, (fronts, *solved)),

@@ -35,6 +35,7 @@ from signorini.arrays import Array, IntArray
 from signorini.condense.operator import symmetric_product
 from signorini.friction.problem import ContactProblem
 from signorini.law.pair import Tangent
+from signorini.linalg.shared_dense import factorise_with_pivots
 
 Balance = tuple[Array, Array, Array]
 """Forces r (d, n), rigid motion a (k,) and motions h (d, n)."""
@@ -315,10 +316,11 @@ def linear_system(equilibrium: Equilibrium, law: Tangent) -> LinearSystem:
     ([[2.0], [-0.4], [-0.2]], [[0.0], [0.0], [0.0]], 1)
     """
     unknowns = Unknowns(law)
-    lu, pivots, singular = _matrix(equilibrium, unknowns), np.zeros(0, dtype=np.int64), False
+    lu, singular = _matrix(equilibrium, unknowns), False
+    pivots: IntArray = np.zeros(0, dtype=np.int64)
     if len(lu):
         norm = float(lapack.dlange("1", lu))
-        lu, pivots, failed = lapack.dgetrf(lu, overwrite_a=1)
+        pivots, failed = factorise_with_pivots(lu)
         singular = bool(failed) or float(lapack.dgecon(lu, norm)[0]) < SINGULAR
     return LinearSystem(equilibrium=equilibrium, unknowns=unknowns, lu=lu, pivots=pivots, singular=singular)
 

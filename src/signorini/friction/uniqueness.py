@@ -19,10 +19,8 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
-from signorini.condense.body_blocks import inverse_of
 from signorini.errors import InputError
 from signorini.friction.certificate import certify
 from signorini.friction.linear import Equilibrium
@@ -30,6 +28,7 @@ from signorini.friction.newton import by_states, in_states, searched, y_in_state
 from signorini.friction.plane.covering import Covering, follow_covering
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, SLIP_MINUS, SLIP_PLUS, STICK
+from signorini.linalg.shared_dense import cholesky, inverse_of_cholesky
 
 COUNTED_PAIRS = 6
 """Pairs whose 4^n states are tried one by one; fewer where their friction has further branches."""
@@ -241,7 +240,7 @@ def _certified(problem: ContactProblem, candidates: Iterator[Array | None]) -> l
 
 def _inverse(W: Array) -> Array | None:
     """Inverse of a symmetric positive definite matrix, None where it is singular: some pair repeats another."""
-    factor, failed = lapack.dpotrf(W, lower=1, clean=1)
-    if failed or np.diag(factor).min() ** 2 < 1e-13:
+    factor = np.array(W, order="F")
+    if cholesky(factor) or np.diag(factor).min(initial=1.0) ** 2 < 1e-13:
         return None
-    return inverse_of(factor, overwrite=True)
+    return inverse_of_cholesky(factor, overwrite=True)

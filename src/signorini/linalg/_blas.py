@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The four BLAS and LAPACK routines of a Cholesky factorisation, callable from compiled loops.
+"""Routines of BLAS and LAPACK for factorisations, callable from compiled loops.
 
 SciPy exports its BLAS to Cython; the same addresses are given to Numba as external symbols, which, unlike function
 pointers, its cache on disk can hold. Every argument is an address: of numbers that the caller keeps alive in arrays
@@ -41,6 +41,9 @@ _dpotrf = _Routine("cython_lapack", "dpotrf", 5)
 _dtrsm = _Routine("cython_blas", "dtrsm", 11)
 _dsyrk = _Routine("cython_blas", "dsyrk", 10)
 _dgemm = _Routine("cython_blas", "dgemm", 13)
+_dpotri = _Routine("cython_lapack", "dpotri", 5)
+_dgetrf = _Routine("cython_lapack", "dgetrf", 6)
+_dlaswp = _Routine("cython_lapack", "dlaswp", 7)
 
 
 class Scratch(NamedTuple):
@@ -53,6 +56,7 @@ class Scratch(NamedTuple):
     size : (6,) sizes and strides of a call
     sizes : address of them
     left, right, transposed, plain : addresses of the letters for the side of a triangle, and for op
+    upper : and for a triangle above the diagonal, which is that for one with ones on its diagonal too
     one, minus_one, zero : addresses of factors
     kept : the factors
     letters : those letters
@@ -64,6 +68,7 @@ class Scratch(NamedTuple):
     right: int
     transposed: int
     plain: int
+    upper: int
     one: int
     minus_one: int
     zero: int
@@ -74,11 +79,11 @@ class Scratch(NamedTuple):
 def scratch() -> Scratch:
     """Give fresh memory for the arguments of BLAS; one per thread."""
     size, kept = np.zeros(6, np.int32), np.array([1.0, -1.0, 0.0])
-    letters = np.frombuffer(b"LRTN", np.uint8).copy()
+    letters = np.frombuffer(b"LRTNU", np.uint8).copy()
     letter, number = letters.ctypes.data, kept.ctypes.data  # which take longer to ask for than all else
     left, right, transposed, plain = letter, letter + 1, letter + 2, letter + 3
-    one, minus_one, zero = number, number + 8, number + 16
-    return Scratch(size, size.ctypes.data, left, right, transposed, plain, one, minus_one, zero, kept, letters)
+    upper, one, minus_one, zero = letter + 4, number, number + 8, number + 16
+    return Scratch(size, size.ctypes.data, left, right, transposed, plain, upper, one, minus_one, zero, kept, letters)
 
 
 class StoredMatrix(NamedTuple):
@@ -110,6 +115,20 @@ def potrf(k: int, A: StoredMatrix, s: Scratch) -> int:
 
 
 @part()
+def potri(k: int, L: StoredMatrix, s: Scratch) -> None:
+    """Overwrite L, (k, k), by the lower triangle of ``(L L^T)^-1``.
+
+    Parameters
+    ----------
+    k, L : the matrix and its size
+    s : of the caller
+    """
+    s.size[0], s.size[1] = k, L.stride
+    z = s.sizes
+    _dpotri(s.left, z, L.begin, z + 4, z + 8)
+
+
+@part()
 def trsm(side: int, op: int, m: int, n: int, L: StoredMatrix, B: StoredMatrix, s: Scratch) -> None:
     """Overwrite B, (m, n), by ``op(L)^-1 B``, or ``B op(L)^-1`` from the right; L is lower triangular.
 
@@ -122,6 +141,54 @@ def trsm(side: int, op: int, m: int, n: int, L: StoredMatrix, B: StoredMatrix, s
     s.size[0], s.size[1], s.size[2], s.size[3] = m, n, L.stride, B.stride
     z = s.sizes
     _dtrsm(side, s.left, op, s.plain, z, z + 4, s.one, L.begin, z + 8, B.begin, z + 12)
+
+
+@part()
+def trsm_of(
+    triangle: int, op: int, diagonal: int, m: int, n: int, T: StoredMatrix, B: StoredMatrix, s: Scratch
+) -> None:
+    """Overwrite B, (m, n), by ``op(T)^-1 B`` of any triangle.
+
+    Parameters
+    ----------
+    triangle, op, diagonal : of T, words of `s`: ``left`` for a lower one, ``upper``; ``upper`` for ones on the diagonal
+    m, n, T, B : sizes and matrices
+    s : of the caller
+    """
+    s.size[0], s.size[1], s.size[2], s.size[3] = m, n, T.stride, B.stride
+    z = s.sizes
+    _dtrsm(s.left, triangle, op, diagonal, z, z + 4, s.one, T.begin, z + 8, B.begin, z + 12)
+
+
+@part()
+def getrf(m: int, n: int, A: StoredMatrix, pivots: int, s: Scratch) -> int:
+    """Overwrite A, (m, n), by its factors L U with rows swapped; 0, or the 1-based column of a pivot that is 0.
+
+    Parameters
+    ----------
+    m, n, A : sizes and the matrix
+    pivots : address of (n,) whole numbers: the 1-based row that was swapped with each
+    s : of the caller
+    """
+    s.size[0], s.size[1], s.size[2] = m, n, A.stride
+    z = s.sizes
+    _dgetrf(z, z + 4, A.begin, z + 8, pivots, z + 12)
+    return int(s.size[3])
+
+
+@part()
+def laswp(n: int, A: StoredMatrix, count: int, pivots: int, s: Scratch) -> None:
+    """Swap rows of n columns as `getrf` did, one after the other.
+
+    Parameters
+    ----------
+    n, A : columns, and the matrix
+    count, pivots : how many rows, and the address of what they are swapped with
+    s : of the caller
+    """
+    s.size[0], s.size[1], s.size[2], s.size[3], s.size[4] = n, A.stride, 1, count, 1
+    z = s.sizes
+    _dlaswp(z, A.begin, z + 4, z + 8, z + 12, pivots, z + 16)
 
 
 @part()

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from signorini.arrays import Array, Int32Array
 from signorini.compilation import kernel, part
-from signorini.linalg._blas import SECOND_TRANSPOSED, Scratch, StoredMatrix, gemm, potrf, syrk, trsm
+from signorini.linalg._blas import SECOND_TRANSPOSED, Scratch, StoredMatrix, gemm, syrk
 from signorini.linalg._fronts import Tree, add_condensed, sizes
+from signorini.linalg._strips import eliminate, eliminate_beside
 
 
 @kernel(nogil=True)
@@ -104,8 +105,8 @@ def eliminate_tile(columns: tuple[int, int], rows: tuple[int, int], front: Store
         beside = StoredMatrix(front.begin + 8 * first, front.stride)
         gemm(SECOND_TRANSPOSED, height, width, first, done, beside, s.one, own, s)
     if begin == first:
-        return potrf(width, pivot, s)
-    trsm(s.right, s.transposed, height, width, pivot, own, s)
+        return eliminate(width, width, pivot, s)
+    eliminate_beside(height, width, pivot, own, s)
     return 0
 
 

@@ -11,10 +11,10 @@ import numpy as np
 from scipy.linalg import blas, lapack
 
 from signorini.arrays import Array, IntArray
-from signorini.condense.body_blocks import inverse_of
 from signorini.friction.linear import SINGULAR
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, STICK
+from signorini.linalg.shared_dense import cholesky, factorise_with_pivots, inverse_of_cholesky, inverse_of_factors
 
 PIVOT_TOL = 1e-9
 """Pivot, relative to what cancels in it, below which the system is inverted afresh."""
@@ -138,7 +138,10 @@ class StateInverse:
         if m:
             matrix = np.take(columns.T, self.unknowns, axis=1).T  # by columns: LAPACK overwrites it
             symmetric = not len(slips) and m == len(forces)
-            self._inverse[:m, :m] = _inverse_of_compliance(matrix) if symmetric else _inverse(matrix)
+            if symmetric:
+                self._inverse[:m, :m] = _inverse_of_compliance(matrix)
+            else:
+                _invert(matrix, self._inverse[:m, :m])
         self._state = state.copy()
 
     def _change(self, state: IntArray) -> bool:
@@ -254,22 +257,21 @@ class StateInverse:
             self._inverse = larger
 
 
-def _inverse(matrix: Array) -> Array:
-    """Of a state's system, which is overwritten; SingularState where there is none."""
+def _invert(matrix: Array, into: Array) -> None:
+    """Put the inverse of a state's system, which is overwritten, into a matrix; SingularState where there is none."""
     norm = float(np.abs(matrix).sum(axis=0).max())
-    lu, order, failed = lapack.dgetrf(matrix, overwrite_a=1)
-    if failed or lapack.dgecon(lu, norm)[0] < SINGULAR:
+    order, failed = factorise_with_pivots(matrix)
+    if failed or lapack.dgecon(matrix, norm)[0] < SINGULAR:
         raise SingularState
-    return _from_factors(lu, order)
+    inverse_of_factors(matrix, order, into)
 
 
 def _inverse_of_compliance(matrix: Array) -> Array:
     """The inverse where all that is closed sticks, for half the operations: symmetric and positive definite."""
     norm = float(np.abs(matrix).sum(axis=0).max())
-    factor, failed = lapack.dpotrf(matrix, lower=1, overwrite_a=1)
-    if failed or lapack.dpocon(factor, norm, uplo="L")[0] < SINGULAR:
+    if cholesky(matrix) or lapack.dpocon(matrix, norm, uplo="L")[0] < SINGULAR:
         raise SingularState
-    return inverse_of(factor, overwrite=True)
+    return inverse_of_cholesky(matrix, overwrite=True)
 
 
 def _inverted(block: Array, size: float) -> Array | None:
@@ -279,10 +281,6 @@ def _inverted(block: Array, size: float) -> Array | None:
     lu, order, failed = lapack.dgetrf(block)
     if failed or np.abs(np.diag(lu)).min() < PIVOT_TOL * size:
         return None
-    return _from_factors(lu, order)
-
-
-def _from_factors(lu: Array, order: IntArray) -> Array:
-    """The inverse, in place of its factors; with room for blocks, without which it takes several times as long."""
-    room = int(lapack.dgetri_lwork(len(lu))[0])
-    return np.asarray(lapack.dgetri(lu, order, lwork=room, overwrite_lu=1)[0], dtype=np.float64)
+    found = np.empty_like(lu)
+    inverse_of_factors(lu, order, found)
+    return found
