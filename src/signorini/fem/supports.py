@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, selection
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
@@ -21,6 +21,7 @@ from signorini.fem.space import ON_AXIS, Space
 from signorini.fem.varying import at_nodes
 from signorini.model.links import directions
 from signorini.model.model import Model
+from signorini.sparse_rows import rows_of, selection, transposed
 
 _AGREEMENT_TOL = 1e-9  # of what supports prescribe: what equations may ask otherwise of it
 
@@ -58,7 +59,7 @@ class Constraints:
     @cached_property
     def _transposed(self) -> sp.csc_array:
         """T^T, asked for in every round of small models."""
-        return self.transform.T
+        return transposed(self.transform)
 
     @property
     def leaders(self) -> IntArray:
@@ -154,7 +155,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     given_rows = free >= 0
     start = np.concatenate([np.zeros(1, np.int32), np.cumsum(given_rows, dtype=np.int32)])
     columns = free[given_rows].astype(np.int32)
-    T = sp.csr_array((np.ones(len(columns)), columns, start), shape=(total, len(unknown)))
+    T = rows_of(np.ones(len(columns)), columns, start, (total, len(unknown)))
     dependent = np.flatnonzero(free == -2)
     if len(dependent):
         shares = shares[np.searchsorted(np.flatnonzero(follows), leader[dependent])]
