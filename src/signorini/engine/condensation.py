@@ -199,7 +199,7 @@ def softness(examined: Examined, condensed: Condensed) -> float:
     T, found = examined.constraints.transform, [0.0]
     for forces in examined.loads.values():
         if size := float(np.abs(forces).sum()):
-            moved = T @ condensed.on_springs(T.T @ forces)
+            moved = T @ condensed.on_springs(examined.constraints.on_free(forces))
             found.append(float(np.abs(moved).max(initial=0.0)) / size)
     return max(found)
 
