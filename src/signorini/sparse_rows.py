@@ -167,9 +167,9 @@ def added(one: sp.csr_array, other: sp.csr_array, share: float = 1.0) -> sp.csr_
     [[0.0, -3.0]]
     """
     if not len(other.data):
-        total = one.copy()
+        total = rows_of(one.data.copy(), one.indices.copy(), one.indptr.copy(), one.shape)
     elif not len(one.data):
-        total = share * other
+        total = rows_of(share * other.data, other.indices.copy(), other.indptr.copy(), one.shape)
     elif _alike(one, other):
         total = rows_of(one.data + share * other.data, one.indices.copy(), one.indptr.copy(), one.shape)
     else:

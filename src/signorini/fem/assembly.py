@@ -24,6 +24,7 @@ from signorini.crew import Crew
 from signorini.errors import InputError
 from signorini.fem import _kernels
 from signorini.fem._kernels import Cells
+from signorini.sparse_rows import rows_of
 
 __all__ = ["Cells", "stiffness"]
 
@@ -115,7 +116,7 @@ def stiffness(
     if bad:
         number, element, wrong = min(bad)
         raise InputError(_complaint(element, number, wrong, points[nodes[number][element]]))
-    return sparse.csr_array((data, indices, indptr), shape=(count * c, count * c))
+    return rows_of(data, indices, indptr, (count * c, count * c))
 
 
 def _shares(points: Array, number: int) -> Int32Array:

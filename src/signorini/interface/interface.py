@@ -93,7 +93,7 @@ class Interface:
 
     def rows(self, pairs: BoolArray) -> BoolArray:
         """(d n,) the rows of B that belong to some pairs (n,)."""
-        return np.tile(pairs, self.directions)
+        return np.concatenate([pairs] * self.directions)
 
     def among(self, kept: BoolArray) -> Interface:
         """Some of the pairs (n,)."""
