@@ -252,7 +252,7 @@ def add_block(points: Array, elements: Cells, laws: Laws, pattern: SparsityPatte
                     divergence[q, a * c] += g[a * e + d]
             for i in range(every * e):
                 wg = w * g[i]
-                for j in range(i - i % e, every * e):  # what is before the node of i nobody reads
+                for j in range(every * e):
                     C[i, j] += wg * g[j]
         _combine(C, every, c, e, entries, law[material[t]], K)
         _eliminate(K, nodes * c)
