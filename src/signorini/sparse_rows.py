@@ -110,6 +110,17 @@ def renumbered(matrix: sp.csr_array, number: IntArray, count: int) -> sp.csr_arr
     return rows_of(matrix.data[there], columns[there], indptr, (matrix.shape[0], count))
 
 
+def turned_rows(matrix: sp.csr_array) -> sp.csr_array:
+    """A matrix with the entries of every row in the opposite order, in which SciPy's products leave them.
+
+    >>> turned_rows(sp.csr_array(np.array([[1.0, 2.0]]))).indices.tolist()
+    [1, 0]
+    """
+    begin, end = matrix.indptr[:-1], matrix.indptr[1:]
+    own = np.repeat(begin + end - 1, end - begin) - np.arange(len(matrix.data))
+    return rows_of(matrix.data[own], matrix.indices[own], matrix.indptr.copy(), matrix.shape)
+
+
 def chosen_columns(matrix: sp.csr_array, columns: IntArray) -> sp.csr_array:
     """Some columns of a matrix, each once.
 

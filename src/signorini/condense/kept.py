@@ -89,7 +89,7 @@ def interface_stiffness(
     felt = with_supple(felt, interface, pairs)
     felt[felt == 0.0] = stiffness  # both sides are rigid, and nothing gives way
     result = np.zeros(len(pairs))
-    for contact in np.unique(interface.contact[pairs]):
+    for contact in distinct(interface.contact[pairs]):
         own = interface.contact[pairs] == contact
         area = interface.area[pairs][own]
         result[own] = 0.5 * felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()

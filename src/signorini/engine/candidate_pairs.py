@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array, BoolArray, distinct
 from signorini.engine.examine import Examined
 from signorini.fem.rigid import free_motions
 from signorini.interface.interface import Interface
@@ -84,7 +84,7 @@ def _near(interface: Interface, length: float, squeezed: float = 0.0) -> BoolArr
     Johnson (1985), Contact Mechanics, section 4.2(c), 4.3.
     """
     inside = np.ones(len(interface), bool)
-    for contact in np.unique(interface.contact):
+    for contact in distinct(interface.contact):
         own = np.nonzero(interface.contact == contact)[0]
         gap: Array = interface.gap[own] - max(float(interface.gap[own].min()), 0.0)
         inside[own] = gap <= max(_REACH * length, _ROOM * _closed(gap, interface.area[own], squeezed))

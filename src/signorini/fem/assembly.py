@@ -143,8 +143,10 @@ def _add_share(
     The first block with a bad element, its first one, and what is wrong with it
     """
     for number, elements in enumerate(blocks):
-        owners = of[elements.nodes]
-        cells = np.flatnonzero((owners.min(axis=1) <= share) & (share <= owners.max(axis=1))).astype(np.int32)
+        cells = np.arange(len(elements.nodes), dtype=np.int32)
+        if of.any():  # not all is one share
+            owners = of[elements.nodes]
+            cells = cells[(owners.min(axis=1) <= share) & (share <= owners.max(axis=1))]
         element, wrong = _kernels.add_block(points, elements, laws, pattern, _kernels.Share(cells, of, share))
         if wrong:
             return number, element, wrong

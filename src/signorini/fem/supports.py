@@ -21,7 +21,7 @@ from signorini.fem.space import ON_AXIS, Space
 from signorini.fem.varying import at_nodes
 from signorini.model.links import directions
 from signorini.model.model import Model
-from signorini.sparse_rows import rows_of, selection, transposed
+from signorini.sparse_rows import renumbered, rows_of, selection, transposed, turned_rows
 
 _AGREEMENT_TOL = 1e-9  # of what supports prescribe: what equations may ask otherwise of it
 
@@ -54,6 +54,15 @@ class Constraints:
     def on_free(self, forces: Array) -> Array:
         """(z,) What forces (dofs,) are on the free displacements, ``T^T f``."""
         found: Array = self._transposed @ forces
+        return found
+
+    def in_free(self, rows: sp.csr_array) -> sp.csr_array:
+        """(k, z) Rows (k, dofs) in terms of the free displacements, ``B T``."""
+        count = self.transform.shape[1]
+        if len(self.transform.indices) != count or len(self.dependent):
+            return sp.csr_array(rows @ self.transform)
+        found = turned_rows(renumbered(rows, self.free, count))  # with the digits that the product has
+        found.eliminate_zeros()
         return found
 
     @cached_property
@@ -139,7 +148,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     given = _prescribed(space, model, links, without)
     leader = _leaders(space, model, given)
     total = space.number_of_dofs
-    follows, shares = np.zeros(total, bool), sp.csr_array((0, total))
+    follows, shares = np.zeros(total, bool), selection(np.empty(0, np.int32), total)
     if links is not None:
         # dofs of a rigid loaded boundary are one unknown
         C = sp.csr_array(links.C @ selection(leader, total))
