@@ -146,9 +146,7 @@ def _fewest(prepared: Prepared, i: int, nodes: IntArray, closed: BoolArray) -> i
     within = closed[one] & closed[two]
     edges = distinct(one[within] * len(nodes) + two[within])
     graph = of_entries(np.ones(len(edges)), *np.divmod(edges, len(nodes)), (len(nodes), len(nodes)))
-    _, patch = connected_components(
-        graph, connection="strong"
-    )  # of edges both ways: connected, and nothing is transposed
+    _, patch = connected_components(graph, connection="strong")  # edges lead both ways: nothing is transposed
     ending = closed[one] & ~closed[two]
     ends = patch[distinct(one[ending] * len(nodes) + two[ending]) // len(nodes)]
     ended = distinct(ends)

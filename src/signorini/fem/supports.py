@@ -57,7 +57,7 @@ class Constraints:
         return found
 
     def in_free(self, rows: sp.csr_array) -> sp.csr_array:
-        """(k, z) Rows (k, dofs) in terms of the free displacements, ``B T``."""
+        """(k, z) Rows (k, dofs), whose entries stand at one place each, in terms of the free displacements, ``B T``."""
         count = self.transform.shape[1]
         if len(self.transform.indices) != count or len(self.dependent):
             return sp.csr_array(rows @ self.transform)
