@@ -35,6 +35,7 @@ BASE = {
     "compilation",
     "cores",
     "crew",
+    "dense",
     "doors",
     "meshio_fixes",
     "hdf5",
@@ -43,6 +44,7 @@ BASE = {
     "settings",
     "short",
     "sources",
+    "sparse_rows",
     "turn",
     "_version",
 }

@@ -4,14 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from copy import copy
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar, runtime_checkable
+from typing import Any, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-if TYPE_CHECKING:
-    import scipy.sparse as sp
 
 Array = NDArray[np.float64]
 SingleArray = NDArray[np.float32]
@@ -137,31 +133,6 @@ def among(lists: Iterable[IntArray], count: int) -> BoolArray:
     for numbers in lists:
         found[numbers] = True
     return found
-
-
-def selection(numbers: IntArray, count: int) -> sp.csr_array:
-    """(k, count) What picks some of ``count`` rows, one each; transposed it puts k rows at those places.
-
-    >>> selection(np.array([2, 0]), 3).toarray().tolist()
-    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
-    """
-    import scipy.sparse as sp  # not before it is needed: what reads decks loads no solver
-
-    k = len(numbers)
-    return sp.csr_array((np.ones(k), numbers, np.arange(k + 1)), shape=(k, count))
-
-
-def scaled_rows(rows: sp.csr_array, by: Array) -> sp.csr_array:
-    """Every row of a matrix times a number of its own, without the checks of a constructor: small ones are many.
-
-    >>> import scipy.sparse as sp
-    >>> scaled_rows(sp.csr_array(np.ones((2, 2))), np.array([1.0, 3.0])).toarray().tolist()
-    [[1.0, 1.0], [3.0, 3.0]]
-    """
-    scaled = copy(rows)
-    scaled.indptr, scaled.indices = rows.indptr.copy(), rows.indices.copy()
-    scaled.data = rows.data * np.repeat(by, np.diff(rows.indptr))
-    return scaled
 
 
 def sharing(values: IntArray) -> tuple[IntArray, IntArray]:

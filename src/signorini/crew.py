@@ -109,7 +109,9 @@ def shared(calls: Sequence[Callable[[], T]], worth: bool) -> list[T]:
     calls : that let go of the interpreter while they compute
     worth : whether they take so long that threads are to share them: tens of milliseconds
     """
-    with Crew(number_of_threads() if worth and len(calls) > 1 else 1) as crew:
+    if not worth or len(calls) < 2:
+        return [call() for call in calls]
+    with Crew(number_of_threads()) as crew:
         return crew.each(calls)
 
 
@@ -124,7 +126,9 @@ def by_ranges(call: Callable[[int, int], T], count: int, worth: bool) -> list[T]
     call : of the first number of a range and of that behind its last; lets go of the interpreter
     count, worth : how many numbers; see `shared`
     """
-    parts = number_of_threads() if worth else 1
+    if not worth:
+        return [call(0, count)]
+    parts = number_of_threads()
     cuts = [count * part // parts for part in range(parts + 1)]
     return shared([partial(call, low, high) for low, high in pairwise(cuts)], worth)
 

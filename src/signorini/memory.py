@@ -31,6 +31,7 @@ _GROUP_FILES = {
 _NO_LIMIT = 1 << 62
 """Bytes from which a limit says that there is none, in groups of the first version, whose use need not be read."""
 
+_MOST_READ = 1 << 16  # bytes of a file of the system, whose files have a few thousand
 _ARENA_MAX = -8  # M_ARENA_MAX of glibc's malloc.h
 
 _PAGES_FROM = 131_072
@@ -64,43 +65,53 @@ def available_memory() -> int:
 
 def _of_the_machine() -> int:
     try:
-        lines = Path("/proc/meminfo").read_text().splitlines()
-        return next(1024 * int(line.split()[1]) for line in lines if line.startswith("MemAvailable:"))
-    except (OSError, StopIteration):
+        return 1024 * int(_read("/proc/meminfo").split(b"MemAvailable:", 1)[1].split(None, 1)[0])
+    except (OSError, IndexError):
         pages = os.sysconf("SC_PHYS_PAGES") if hasattr(os, "sysconf") else 2**21
         return pages * 4096 // 2
+
+
+def _read(path: str) -> bytes:
+    """A file of the system, whose numbers are few: every solve asks, and a small one takes hundredths of a second."""
+    file = os.open(path, os.O_RDONLY)
+    try:
+        return os.read(file, _MOST_READ)
+    finally:
+        os.close(file)
 
 
 def _under_limits() -> Iterator[int]:
     """What ``ulimit -v`` and ``ulimit -d`` leave."""
     if resource is None:
         return
-    try:
-        pages = [int(part) for part in Path("/proc/self/statm").read_text().split()]
-    except (OSError, ValueError):
-        return
-    for limit, used in ((resource.RLIMIT_AS, pages[0]), (resource.RLIMIT_DATA, pages[5])):
+    for limit, place in ((resource.RLIMIT_AS, 0), (resource.RLIMIT_DATA, 5)):
         most = resource.getrlimit(limit)[0]
         if most != resource.RLIM_INFINITY:
+            try:
+                used = int(_read("/proc/self/statm").split()[place])
+            except (OSError, ValueError, IndexError):
+                return
             yield most - used * resource.getpagesize()
 
 
 def _in_groups() -> Iterator[int]:
     """What the control groups of the process leave: those of containers and batch systems, of both versions."""
-    for folder, kinds in _groups():
-        most, used, idle = _GROUP_FILES[kinds]
+    for most, used, stat, idle in _groups():
         try:
-            limit = int((folder / most).read_text())  # "max" where there is none
+            limit = int(_read(most))  # "max" where there is none
             if limit < _NO_LIMIT:
-                files = dict(line.split() for line in (folder / "memory.stat").read_text().splitlines())
-                yield limit - int((folder / used).read_text()) + int(files.get(idle, 0))
+                files = (b"\n" + _read(stat)).split(b"\n%s " % idle.encode(), 1)
+                yield limit - int(_read(used)) + (int(files[1].split(None, 1)[0]) if len(files) > 1 else 0)
         except (OSError, ValueError):  # none that is limited
             pass
 
 
 @cache
-def _groups() -> tuple[tuple[Path, str], ...]:
-    """Folders of the control groups that limit the memory of the process, and which version they are of; found once."""
+def _groups() -> tuple[tuple[str, str, str, str], ...]:
+    """Of the control groups that limit the memory of the process: files of limit, use and more, and what there is idle.
+
+    They are found once.
+    """
     try:
         lines = Path("/proc/self/cgroup").read_text().splitlines()
     except OSError:
@@ -111,7 +122,9 @@ def _groups() -> tuple[tuple[Path, str], ...]:
             root = Path("/sys/fs/cgroup", kinds)
             here = root / path.lstrip("/")
             within = [folder for folder in (here, *here.parents) if folder.is_relative_to(root)]
-            found += [(folder, kinds) for folder in within if (folder / _GROUP_FILES[kinds][0]).exists()]
+            most, used, idle = _GROUP_FILES[kinds]
+            there = [folder for folder in within if (folder / most).exists()]
+            found += [(f"{own / most}", f"{own / used}", f"{own / 'memory.stat'}", idle) for own in there]
     return tuple(found)
 
 

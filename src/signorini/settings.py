@@ -93,3 +93,7 @@ def _listed(value: Any, name: str) -> Sequence[Any]:
     if isinstance(value, str) or not isinstance(value, Sequence):
         raise InputError(f"is {value!r}; expected a list of numbers", where=(name,))
     return value
+
+
+DEFAULT_SETTINGS = SolverSettings()
+"""Where none are given: checked once, for small problems are solved thousands of times."""

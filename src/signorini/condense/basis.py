@@ -10,6 +10,7 @@ import scipy.linalg
 
 from signorini.arrays import Array
 from signorini.condense.body_blocks import DEPENDENT
+from signorini.dense import solve_triangular
 from signorini.linalg._dense_tiles import mirror
 
 
@@ -28,8 +29,7 @@ class Basis:
 
     def coefficients(self, resultant: Array) -> Array:
         """``R^T b`` of any b with the resultants ``N^T b``, both (k,)."""
-        solved: Array = scipy.linalg.solve_triangular(self.triangle, resultant, trans=1)
-        return solved
+        return solve_triangular(self.triangle, resultant, transposed=True)
 
     def project(self, A: Array) -> Array:
         """Overwrite a symmetric A by ``P A P``, P = I - R R^T, and give back ``P A R`` as it was, (n, k).

@@ -16,8 +16,10 @@ import scipy.linalg
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.dense import solve_cholesky, solve_triangular
 from signorini.linalg._dense_tiles import mirror
 from signorini.linalg.shared_dense import cholesky, inverse_of_cholesky
+from signorini.sparse_rows import chosen_columns, chosen_rows
 
 DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
 
@@ -39,8 +41,7 @@ class BodyBlock:
 
     def solve(self, load: Array) -> Array:
         """Displacements (p, ...) under a load (p, ...)."""
-        moved: Array = scipy.linalg.cho_solve((self.cholesky, True), load, check_finite=False)
-        return moved
+        return solve_cholesky(self.cholesky, load)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -64,7 +65,7 @@ class BodyBlocks:
         for part in self.blocks:
             moved[part.dofs] = part.solve(load[part.dofs])
         if self.across.shape[1]:
-            moved -= self.across @ scipy.linalg.cho_solve((self.gram, True), self.across.T @ load, check_finite=False)
+            moved -= self.across @ solve_cholesky(self.gram, self.across.T @ load)
         return moved
 
     def inverted(self) -> BodyBlocks:
@@ -77,9 +78,9 @@ class BodyBlocks:
         """``B M^-1 B^T`` of the stiffness M with its ties, (k, k), symmetric to the last digit; B (k, m)."""
         result = np.zeros((B.shape[0],) * 2)
         for part in self.blocks:
-            own = B if len(part.dofs) == B.shape[1] else sp.csr_array(B[:, part.dofs])
+            own = B if len(part.dofs) == B.shape[1] else chosen_columns(B, part.dofs)
             seen = np.flatnonzero(np.diff(own.indptr))
-            own = own if len(seen) == len(result) else own[seen]
+            own = own if len(seen) == len(result) else chosen_rows(own, seen)
             inverse = inverse_of_cholesky(part.cholesky) if part.inverse is None else part.inverse
             half = own @ inverse.T
             del inverse  # as large as what is made of it, like all below
@@ -91,7 +92,7 @@ class BodyBlocks:
             else:
                 result[np.ix_(seen, seen)] += moved
         if self.across.shape[1]:
-            moved = scipy.linalg.solve_triangular(self.gram, (B @ self.across).T, lower=True, check_finite=False)
+            moved = solve_triangular(self.gram, (B @ self.across).T, lower=True)
             result -= moved.T @ moved
         mirror(result, 0, len(result))
         return result

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray, IntArray
@@ -19,12 +18,14 @@ from signorini.condense.kept import Kept, interface_stiffness
 from signorini.condense.operator import InterfaceOperator
 from signorini.condense.response import ByNodes, Response, keep_pairs
 from signorini.condense.ties import Ties
+from signorini.dense import solve_triangular
 from signorini.interface.active import FreeBodies, active_pairs
 from signorini.interface.interface import Interface
-from signorini.linalg.elsewhere import MatrixElsewhere
+from signorini.linalg.elsewhere import is_elsewhere
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, NotPositiveDefinite, Reduced
 from signorini.linalg.registry import factorise, takes_borders
+from signorini.sparse_rows import chosen_columns, chosen_rows
 
 _LOOSE_COMPLIANCE = 1e14  # of 1 / D: a compliance from which bodies held by contact alone are as good as free
 
@@ -120,7 +121,7 @@ class Condensed:
         c = free[:, :rows] - (free[:, :rows] @ R) @ R.T
         resultant: Array = free[:, rows:] - c @ self._leaning
         if R.shape[1]:
-            resultant = scipy.linalg.solve_triangular(self._basis.triangle, resultant.T).T
+            resultant = solve_triangular(self._basis.triangle, resultant.T).T
         return self.root * c.reshape(-1, *self.compliance.shape), resultant
 
     def travel(self, left: Array) -> Array:
@@ -129,11 +130,11 @@ class Condensed:
         Of several at once (k, p) of (d a, p).
         """
         scaled = (np.tile(self.root, len(self.compliance)) * left.T).T
-        return np.asarray(scipy.linalg.solve_triangular(self._basis.triangle, self._basis.R.T @ scaled))
+        return solve_triangular(self._basis.triangle, self._basis.R.T @ scaled)
 
     def travel_transposed(self, travel: Array) -> Array:
         """(d a,) The transpose of `travel`."""
-        seen = self._basis.R @ scipy.linalg.solve_triangular(self._basis.triangle, travel, trans=1)
+        seen = self._basis.R @ solve_triangular(self._basis.triangle, travel, transposed=True)
         return np.tile(self.root, len(self.compliance)) * seen
 
     def of_gaps(self, gap: Array) -> Array:
@@ -197,7 +198,7 @@ class Condensed:
             response=response,
             active=self.active & kept,
             root=root,
-            B=self.B[rows],
+            B=chosen_rows(self.B, rows),
             compliance=compliance,
             **_image(response, root, compliance),
         )
@@ -222,7 +223,7 @@ class Condensed:
         """
         assert isinstance(self.response, ByNodes)
         seen, _, held, active = active_pairs(B, interface, np.ones(len(interface), np.bool_))
-        B_c = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]][:, self.dofs])
+        B_c = chosen_columns(chosen_rows(seen, interface.rows(active)), self.dofs)
         response = replace(self.response, B=B_c)
         near = np.minimum(1.0, reach / np.maximum(interface.gap[active], reach)) if response.rigid.size else None
         return replace(self, held=held, **_seen_by(active, interface, response, (self.K, B_c), stiffness, near))
@@ -269,7 +270,7 @@ def condense(
     response: Response | None = None
     with clock.phase("factorisation"):
         by_nodes = interface.directions == 2 or ties is not None or len(bodies.kept)
-        if not by_nodes and B.shape[0] and (isinstance(K, MatrixElsewhere) or takes_borders(backend)):
+        if not by_nodes and B.shape[0] and (is_elsewhere(K) or takes_borders(backend)):
             at = points[interface.node[active]]
             with suppress(NotPositiveDefinite):  # the contact may still hold what moves
                 seen = bodies._replace(B=B)

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, distinct
 from signorini.condense._kernels import block_on, felt_stiffness
 from signorini.condense.ties import Ties, make_ties
 from signorini.interface.active import FreeBodies, active_pairs, with_supple
 from signorini.interface.interface import Interface
-from signorini.linalg.elsewhere import MatrixElsewhere
+from signorini.linalg.elsewhere import is_elsewhere
+from signorini.sparse_rows import chosen_columns, chosen_rows, rows_of
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -51,19 +52,20 @@ class Kept:
         seen, moves, held, active = active_pairs(bodies.B, interface, candidates)
         rows = np.nonzero(interface.rows(interface.tied) & moves)[0]
         ties = make_ties(seen, rows) if len(rows) else None
-        B = sp.csr_array(seen[np.nonzero(interface.rows(active))[0]])
-        tied = sp.csr_array((0, B.shape[1])) if ties is None else ties.B
-        dofs = np.unique(np.concatenate([B.indices, tied.indices, bodies.kept]))
-        contact = sp.csr_array(B[:, dofs])
-        return Kept(held=held, active=active, ties=ties, B=B, dofs=dofs, contact=contact, tied=tied[:, dofs].toarray())
+        B = chosen_rows(seen, interface.rows(active))
+        of_ties = bodies.kept[:0] if ties is None else ties.B.indices
+        dofs = distinct(np.concatenate([B.indices, of_ties, bodies.kept]))
+        contact = chosen_columns(B, dofs)
+        tied = np.zeros((0, len(dofs))) if ties is None else chosen_columns(ties.B, dofs).toarray()
+        return Kept(held=held, active=active, ties=ties, B=B, dofs=dofs, contact=contact, tied=tied)
 
     def block(self, K: sp.csr_array) -> sp.csr_array:
         """(m, m) The stiffness between what is kept where all else is held, of one on the free displacements (z, z)."""
-        K = K.rows(self.dofs) if isinstance(K, MatrixElsewhere) else K
+        K = K.rows(self.dofs) if is_elsewhere(K) else K
         place = np.full(K.shape[0], -1, np.int64)
         place[self.dofs] = np.arange(len(self.dofs))
         data, indices, indptr = block_on(K.indptr, K.indices, K.data, self.dofs, place)
-        return sp.csr_array((data, indices, indptr), shape=(len(self.dofs),) * 2)
+        return rows_of(data, indices, indptr, (len(self.dofs),) * 2)
 
 
 def interface_stiffness(
@@ -87,7 +89,7 @@ def interface_stiffness(
     felt = with_supple(felt, interface, pairs)
     felt[felt == 0.0] = stiffness  # both sides are rigid, and nothing gives way
     result = np.zeros(len(pairs))
-    for contact in np.unique(interface.contact[pairs]):
+    for contact in distinct(interface.contact[pairs]):
         own = interface.contact[pairs] == contact
         area = interface.area[pairs][own]
         result[own] = 0.5 * felt[own].mean() / np.sqrt(own.sum()) * area / area.mean()

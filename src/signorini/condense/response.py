@@ -28,11 +28,12 @@ from signorini.arrays import Array, BoolArray, IntArray
 from signorini.condense.body_blocks import BodyBlocks
 from signorini.interface.active import FreeBodies
 from signorini.linalg._dense_tiles import mirror
-from signorini.linalg.elsewhere import MatrixElsewhere
+from signorini.linalg.elsewhere import is_elsewhere
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
 from signorini.linalg.system import bordered
+from signorini.sparse_rows import chosen_rows, transposed
 
 Travel = Callable[[Array], Array]
 """Rigid motion (k,) beyond given relative displacements (d a,) of the pairs."""
@@ -90,7 +91,7 @@ class Response(ABC):
 
     def among(self, rows: BoolArray) -> Self:
         """This response with some of the (d a,) rows alone."""
-        return replace(self, B=self.B[rows])
+        return replace(self, B=chosen_rows(self.B, rows))
 
     def moving(self, ways: Array) -> Self:
         """This response where of the k rigid motions only some combinations (k, m) occur, springs hold the others."""
@@ -127,7 +128,7 @@ class ByNodes(Response):
 
     def displacement(self, reduced: Reduced, r: Array, travel: Travel) -> Array:
         """Displacements of the contact nodes under the reduced load and r, and travel, then all that follow them."""
-        return reduced.expand(self.travelled(self.parts.solve(reduced.load + self.B.T @ r), travel))
+        return reduced.expand(self.travelled(self.parts.solve(reduced.load + transposed(self.B) @ r), travel))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -244,7 +245,7 @@ def held_by_springs(K: Any, rigid: Array, stiffness: float) -> Any:
     dofs = scipy.linalg.qr(basis.T, mode="economic", pivoting=True)[2][: rigid.shape[1]]
     springs = np.zeros(K.shape[0])
     springs[dofs] = K.diagonal().mean() if K.nnz else stiffness
-    if isinstance(K, MatrixElsewhere):
+    if is_elsewhere(K):
         return K.stiffened(springs)
     held = K.copy()
     held.setdiag(K.diagonal() + springs)  # keeps the pattern, which a sum would thin out

@@ -16,7 +16,7 @@ from dataclasses import replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, selection
+from signorini.arrays import Array, BoolArray
 from signorini.derivative.adjoint_terms import Adjoint
 from signorini.derivative.body_side import multiplier, places_matter
 from signorini.derivative.contact_sums import ContactSums
@@ -34,6 +34,7 @@ from signorini.fem.node_work import add_node_work
 from signorini.fem.space import ON_AXIS, Space
 from signorini.model.conditions import BODY_LOADS, Load
 from signorini.model.outputs import Output, Stress, WeightedSum
+from signorini.sparse_rows import selection
 
 _SPREAD = ("force", "bearing", "torque")  # loads that are given as a sum
 _STRESS_STEP = 1e-5  # of the size of the cells of a node: differences of its stress are right to 1e-10 then

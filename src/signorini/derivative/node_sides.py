@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, selection
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.derivative.adjoint_terms import Adjoint
 from signorini.derivative.body_side import pairs_at
 from signorini.derivative.explicit import ShapeWeights
@@ -28,6 +28,7 @@ from signorini.fem.boundary import Boundary, boundary
 from signorini.fem.space import Space
 from signorini.interface.interface import Interface
 from signorini.model.outputs import Output
+from signorini.sparse_rows import selection
 
 _RINGS = 3  # of facets around a pair that its normal, area and gap may depend on, through neighbours of neighbours
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array, BoolArray, distinct
 from signorini.engine.examine import Examined
 from signorini.fem.rigid import free_motions
 from signorini.interface.interface import Interface
 from signorini.solution.scale import Loading, data_scale
+from signorini.sparse_rows import chosen_rows
 
 _NEEDED = 0.5  # of the loads: pairs chosen for these leave room for bodies that give twice as much
 _AHEAD = 2.0  # of the loads of a step that reaches farther than any before: growing loads seldom need pairs anew
@@ -48,7 +49,7 @@ def candidate_pairs(
         found = before if (before | ~needed).all() else before | _reached(examined, loading.times(_AHEAD))
     if found is before and held:
         return found
-    seen = examined.interface.felt(examined.motions)[examined.interface.rows(found)]
+    seen = chosen_rows(examined.interface.felt(examined.motions), examined.interface.rows(found))
     if free_motions(examined.resisted, seen).shape[1]:
         return np.ones_like(found)
     return found
@@ -83,7 +84,7 @@ def _near(interface: Interface, length: float, squeezed: float = 0.0) -> BoolArr
     Johnson (1985), Contact Mechanics, section 4.2(c), 4.3.
     """
     inside = np.ones(len(interface), bool)
-    for contact in np.unique(interface.contact):
+    for contact in distinct(interface.contact):
         own = np.nonzero(interface.contact == contact)[0]
         gap: Array = interface.gap[own] - max(float(interface.gap[own].min()), 0.0)
         inside[own] = gap <= max(_REACH * length, _ROOM * _closed(gap, interface.area[own], squeezed))

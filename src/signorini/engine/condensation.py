@@ -59,7 +59,7 @@ def refuse_unknown(backend: str, where: Where = ()) -> None:
 def free_bodies(examined: Examined, K: sp.csr_array) -> FreeBodies:
     """The bodies and their pairs in terms of the free displacements, K (z, z) their stiffness, here or elsewhere."""
     space, constraints, T = examined.space, examined.constraints, examined.constraints.transform
-    bodies = FreeBodies(K, sp.csr_array(examined.interface.B @ T), constraints.nodes, space.places)
+    bodies = FreeBodies(K, constraints.in_free(examined.interface.B), constraints.nodes, space.places)
     if not examined.model.slides:
         return bodies
     return bodies._replace(kept=sliding_unknowns(space, examined.model, examined.frames, T))
@@ -199,7 +199,7 @@ def softness(examined: Examined, condensed: Condensed) -> float:
     T, found = examined.constraints.transform, [0.0]
     for forces in examined.loads.values():
         if size := float(np.abs(forces).sum()):
-            moved = T @ condensed.on_springs(T.T @ forces)
+            moved = T @ condensed.on_springs(examined.constraints.on_free(forces))
             found.append(float(np.abs(moved).max(initial=0.0)) / size)
     return max(found)
 

@@ -37,6 +37,7 @@ from signorini.model.model import Model
 from signorini.model.stage import Stage, Standing, stages
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.scale import Loading, Scale, data_scale, loading_of
+from signorini.sparse_rows import chosen_rows
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -207,12 +208,12 @@ def refuse_free_motions(
     InputError
         If a part can move: with its motion.
     """
-    touching = motions[space.dofs(distinct(interface.B.indices // space.components)).ravel()]
+    touching = chosen_rows(motions, space.dofs(distinct(interface.B.indices // space.components)).ravel())
     free = free_motions(resisted, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
     rubbing = (interface.friction.rubs & (interface.anisotropy > 0).T).ravel()
-    resisting = interface.felt(motions)[np.concatenate([np.ones(len(interface), bool), rubbing])]
+    resisting = chosen_rows(interface.felt(motions), np.concatenate([np.ones(len(interface), bool), rubbing]))
     free = free_motions(resisted, resisting)
     if free.shape[1]:
         raise InputError(
@@ -232,4 +233,4 @@ def floating_motions(motions: sp.csr_array, resisted: Array, interface: Interfac
     motions : (dofs, motions of all parts)
     resisted, interface : what supports take of them, and the pairs with their ties
     """
-    return free_motions(resisted, interface.felt(motions)[interface.rows(interface.tied)])
+    return free_motions(resisted, chosen_rows(interface.felt(motions), interface.rows(interface.tied)))

@@ -23,6 +23,7 @@ from signorini.law.bound import ADHESION_SLOPE
 from signorini.law.states import OPEN
 from signorini.outcome import Outcome
 from signorini.solution.state import State, next_state
+from signorini.sparse_rows import transposed
 
 DRIVES = 1e-11
 """Of all forces that change: their work along a rigid motion that they drive."""
@@ -59,7 +60,7 @@ def approached(part: StepPart, *, relieving: bool = False) -> FollowedPart | Non
     if not floating.shape[1] or not len(interface):
         return None
     change = change_of_loads(part)
-    work, enough = floating.T @ (motions.T @ change), DRIVES * float(np.abs(change).sum())
+    work, enough = floating.T @ (transposed(motions) @ change), DRIVES * float(np.abs(change).sum())
     presses, apart, width = standing(prepared, state)
     overlaps = bool((state.gap[apart] < -width).any())
     if not (relieving if overlaps else np.abs(work).max() > enough):
@@ -135,7 +136,7 @@ def _alike(prepared: Prepared, motions: Array) -> Array:
         np.repeat(volumes, space.components),
         _BARE_VOLUME * everything,
     )
-    resisted = motions.T @ (prepared.motions.T @ (weights[:, None] * (prepared.motions @ motions)))
+    resisted = motions.T @ (transposed(prepared.motions) @ (weights[:, None] * (prepared.motions @ motions)))
     factor = np.linalg.cholesky(resisted / everything)
     return np.linalg.inv(factor).T
 
@@ -192,7 +193,7 @@ def resting(part: StepPart) -> StepPart:
     moved = np.asarray(prepared.interface.felt(prepared.motions) @ prepared.floating)
     loose = unfelt(moved[prepared.interface.rows(touches)])
     change = change_of_loads(part)
-    work = prepared.floating.T @ (prepared.motions.T @ change)
+    work = prepared.floating.T @ (transposed(prepared.motions) @ change)
     if not loose.shape[1] or np.abs(loose.T @ work).max() > DRIVES * float(np.abs(change).sum()):
         return part
     seen = np.abs(moved @ loose).max(axis=1) > _FEELS * float(np.abs(moved).max())

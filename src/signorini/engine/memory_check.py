@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import BoolArray
+from signorini.arrays import BoolArray, distinct
 from signorini.engine.way_costs import (
     CONDENSED,
     ITERATED,
@@ -19,12 +19,13 @@ from signorini.errors import InputError
 from signorini.interface.active import FreeBodies
 from signorini.interface.interface import Interface
 from signorini.iterative.bodies import ITERATIVE
-from signorini.linalg.elsewhere import MatrixElsewhere
+from signorini.linalg.elsewhere import is_elsewhere
 from signorini.linalg.plan import analyse
 from signorini.linalg.registry import takes_borders
 from signorini.linalg.system import checked_system
 from signorini.memory import available_memory
 from signorini.model.model import Model
+from signorini.sparse_rows import chosen_rows
 
 # measured on cubes of 13 000 to 1 000 000 unknowns and cylinders in the plane (benchmarks/memory.py), the least of each
 _LEAST_OF_SOLVE = {2: 75.0, 3: 32.0}  # bytes an entry of K, all in all, by dimension: in space iterating takes least
@@ -107,7 +108,7 @@ def way_through(
         Where what was asked for does not fit, or nothing does: with what it takes, what there is, and ways out.
     """
     K = bodies.K
-    if isinstance(K, MatrixElsewhere):
+    if is_elsewhere(K):
         return CONDENSED
     if not K.nnz:  # nothing deforms, so there is nothing to iterate on
         return CONDENSED
@@ -151,7 +152,7 @@ def condensing(
     """
     K, B, nodes, points = bodies[:4]
     chosen = interface.rows(candidates | interface.tied)
-    dofs = np.unique(np.concatenate([B[np.flatnonzero(chosen)].indices, bodies.kept]))
+    dofs = distinct(np.concatenate([chosen_rows(B, chosen).indices, bodies.kept]))
     rows = int(np.count_nonzero(chosen))
     by_nodes = interface.directions == 2 or interface.tied.any() or not takes_borders("auto")
     if by_nodes:  # contact nodes are kept; else pairs, in a border

@@ -37,7 +37,7 @@ from signorini.linalg.plan import Plans
 from signorini.model.model import Model
 from signorini.model.stage import Stage, stages
 from signorini.plasticity.bodies import YieldingBodies, yielding_bodies
-from signorini.settings import SolverSettings
+from signorini.settings import DEFAULT_SETTINGS, SolverSettings
 from signorini.solution.checkpoint import Checkpoint
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.scale import Loading, data_scale, loading_of
@@ -307,7 +307,7 @@ def prepare(
     before = None if start is None else start.standing
     first = increments_before(examined, start, backend) if saves else np.inf
     number = first + increments_of(next(stages(model, before=before)), examined) if saves else np.inf
-    made = condensed_model(examined, K, near, backend, settings or SolverSettings(), clock, increments=number)
+    made = condensed_model(examined, K, near, backend, settings or DEFAULT_SETTINGS, clock, increments=number)
     made = replace(made, increments=first) if made.spared else made  # every step counts its own
     wearing = worn_sides(made.space, made.model, made.interface) if model.wears else None
     if wearing is not None and made.solver.condensed is None:

@@ -10,10 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from signorini.arrays import BoolArray, IntArray, extent
+from signorini.arrays import BoolArray, IntArray, distinct, extent
 from signorini.engine.examine import Examined
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
@@ -23,6 +22,7 @@ from signorini.fem.rigid import ConnectedBody
 from signorini.law.states import OPEN
 from signorini.meshing.facets import facet_corners
 from signorini.solution.state import State
+from signorini.sparse_rows import of_entries
 
 ONE_INCREMENT = "one increment: assumes that the final state was reached from zero slip"
 """What a step with friction says when it was solved in one increment (METHOD 5)."""
@@ -144,14 +144,16 @@ def _fewest(prepared: Prepared, i: int, nodes: IntArray, closed: BoolArray) -> i
     both = (one >= 0) & (two >= 0)
     one, two = np.concatenate([one[both], two[both]]), np.concatenate([two[both], one[both]])
     within = closed[one] & closed[two]
-    graph = sp.coo_array((np.ones(within.sum()), (one[within], two[within])), shape=(len(nodes), len(nodes)))
-    _, patch = connected_components(graph, directed=False)
-    ends = np.unique(np.column_stack([one, two])[closed[one] & ~closed[two]], axis=0)
-    ended = np.unique(patch[ends[:, 0]])
+    edges = distinct(one[within] * len(nodes) + two[within])
+    graph = of_entries(np.ones(len(edges)), *np.divmod(edges, len(nodes)), (len(nodes), len(nodes)))
+    _, patch = connected_components(graph, connection="strong")  # edges lead both ways: nothing is transposed
+    ending = closed[one] & ~closed[two]
+    ends = patch[distinct(one[ending] * len(nodes) + two[ending]) // len(nodes)]
+    ended = distinct(ends)
     if space.dimension == 3:
         return int(_layers(facets, one, two, closed, patch)[ended].min(initial=_PAIRS_ACROSS))
     size = np.bincount(patch[closed], minlength=len(nodes))[ended]
-    half = np.bincount(patch[ends[:, 0]], minlength=len(nodes))[ended] == 1
+    half = np.bincount(ends, minlength=len(nodes))[ended] == 1
     return int(np.where(half, 2 * size - 1, size).min(initial=_PAIRS_ACROSS))
 
 

@@ -24,6 +24,7 @@ from signorini.crew import Crew
 from signorini.errors import InputError
 from signorini.fem import _kernels
 from signorini.fem._kernels import Cells
+from signorini.sparse_rows import rows_of
 
 __all__ = ["Cells", "stiffness"]
 
@@ -115,7 +116,7 @@ def stiffness(
     if bad:
         number, element, wrong = min(bad)
         raise InputError(_complaint(element, number, wrong, points[nodes[number][element]]))
-    return sparse.csr_array((data, indices, indptr), shape=(count * c, count * c))
+    return rows_of(data, indices, indptr, (count * c, count * c))
 
 
 def _shares(points: Array, number: int) -> Int32Array:
@@ -142,8 +143,10 @@ def _add_share(
     The first block with a bad element, its first one, and what is wrong with it
     """
     for number, elements in enumerate(blocks):
-        owners = of[elements.nodes]
-        cells = np.flatnonzero((owners.min(axis=1) <= share) & (share <= owners.max(axis=1))).astype(np.int32)
+        cells = np.arange(len(elements.nodes), dtype=np.int32)
+        if of.any():  # not all is one share
+            owners = of[elements.nodes]
+            cells = cells[(owners.min(axis=1) <= share) & (share <= owners.max(axis=1))]
         element, wrong = _kernels.add_block(points, elements, laws, pattern, _kernels.Share(cells, of, share))
         if wrong:
             return number, element, wrong

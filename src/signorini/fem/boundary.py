@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct
 from signorini.errors import Where
 from signorini.fem.facet_block import FacetBlock
 from signorini.fem.space import Space
@@ -71,12 +71,12 @@ class Boundary:
     @cached_property
     def nodes(self) -> IntArray:
         """(n,) Sorted nodes."""
-        return np.unique(np.concatenate([block.nodes for block in self.blocks]))
+        return distinct(np.concatenate([block.nodes for block in self.blocks]))
 
     @cached_property
     def corner_nodes(self) -> IntArray:
         """Sorted nodes at corners of facets: those that carry pairs."""
-        return np.unique(np.concatenate([block.corner_nodes.ravel() for block in self.blocks]))
+        return distinct(np.concatenate([block.corner_nodes.ravel() for block in self.blocks]))
 
     @property
     def cells(self) -> IntArray:

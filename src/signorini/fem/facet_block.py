@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct
 from signorini.fem.facets import facet_nodes, facet_pieces, facet_rule, facet_shapes
 from signorini.meshing.facets import facet_corners
 
@@ -34,7 +34,7 @@ class FacetBlock:
     @cached_property
     def nodes(self) -> IntArray:
         """(n,) Sorted nodes."""
-        return np.unique(self.facets)
+        return distinct(self.facets)
 
     @property
     def dimension(self) -> int:

@@ -7,15 +7,16 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import Array, IntArray, among, extent
+from signorini.dense import symmetric_eigen
 from signorini.fem.obstacles import arm
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.model.model import Model
+from signorini.sparse_rows import chosen_rows, gram, of_entries, rows_of
 
 _HELD_LEAST = 1e-12  # of the largest eigenvalue of the Gram matrix of the motions: below it a motion is not held
 _REST_TOL = 1e-10  # of the largest coefficient of a motion: what eigenvectors leave to parts that are at rest
@@ -108,7 +109,7 @@ def _pieces(space: Space, model: Model) -> list[ConnectedBody]:
     members = np.concatenate([block.cells.ravel() for block in space.blocks]).astype(np.int32)
     sizes = np.repeat([block.cells.shape[1] for block in space.blocks], [len(block.cells) for block in space.blocks])
     start = np.concatenate([np.zeros(count + 1, np.int32), np.cumsum(sizes, dtype=np.int32)])
-    graph = sp.csr_array((np.ones(len(members)), members, start), shape=(len(start) - 1,) * 2)
+    graph = rows_of(np.ones(len(members)), members, start, (len(start) - 1,) * 2)
     piece = connected_components(graph, connection="weak")[1][:count]
     number, owner = int(piece.max()) + 1, model.body_of_cells()
     pieces_of = [
@@ -174,8 +175,8 @@ def rigid_motions(space: Space, parts: tuple[ConnectedBody, ...]) -> sp.csr_arra
                 rows.append(dofs)
                 columns.append(np.full(len(dofs), start[i] + kept.index(k)))
                 values.append(value)
-    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return sp.csr_array(entries, shape=(space.number_of_dofs, int(start[-1])))
+    shape = space.number_of_dofs, int(start[-1])
+    return of_entries(np.concatenate(values), np.concatenate(rows), np.concatenate(columns), shape)
 
 
 def _rotation_planes(dimension: int) -> tuple[tuple[int, int], ...]:
@@ -195,13 +196,12 @@ def resistance(motions: sp.csr_array, constraints: Constraints) -> Array:
     # dofs that these are
     leaders = constraints.leaders
     others = np.flatnonzero(~among([leaders], motions.shape[0]))
-    lost, follow = motions[others], constraints.transform[others]
+    lost, follow = chosen_rows(motions, others), chosen_rows(constraints.transform, others)
     if follow.nnz:
-        lost = lost - follow @ motions[leaders]
+        lost = lost - follow @ chosen_rows(motions, leaders)
     # springs count as held, whatever their stiffness
     springs = [(S / abs(S).max()) @ motions for S in constraints.springs.values()]
-    taken = sp.vstack([lost, *springs]) if springs else lost
-    return np.asarray((taken.T @ taken).toarray())
+    return gram(sp.csr_array(sp.vstack([lost, *springs])) if springs else lost)
 
 
 def free_motions(resisted: Array, seen: sp.csr_array) -> Array:
@@ -216,7 +216,7 @@ def free_motions(resisted: Array, seen: sp.csr_array) -> Array:
     -------
     (motions of all parts, k) coefficients, a basis as simple as it can be
     """
-    values, vectors = scipy.linalg.eigh(resisted + (seen.T @ seen).toarray())
+    values, vectors = symmetric_eigen(resisted + gram(seen))
     return _readable(vectors[:, values <= _HELD_LEAST * max(1.0, values[-1])])
 
 

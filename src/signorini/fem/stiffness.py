@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, selection
+from signorini.arrays import Array, BoolArray
 from signorini.crew import by_ranges
 from signorini.fem import _kernels
 from signorini.fem.assembly import Cells
@@ -19,6 +19,7 @@ from signorini.fem.kinematics import Group, mode_gradients, of_each, straining_g
 from signorini.fem.measure import measure_of_cells
 from signorini.fem.space import Space
 from signorini.model.model import Model
+from signorini.sparse_rows import rows_of, selection
 
 SHARED_ENTRIES = 1_000_000
 """Entries of a stiffness of which threads share what is kept under supports: ten milliseconds of one thread."""
@@ -149,4 +150,4 @@ def _of_free(K: sp.csr_array, free: BoolArray) -> sp.csr_array:
     np.cumsum(ends, out=ends)
     found = _kernels.MatrixRows(ends, np.empty(ends[-1], dtype=np.int32), np.empty(ends[-1]))
     fill(found)
-    return sp.csr_array((found.data, found.indices, found.indptr), shape=(z, z))
+    return rows_of(found.data, found.indices, found.indptr, (z, z))

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, selection
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
@@ -21,6 +21,7 @@ from signorini.fem.space import ON_AXIS, Space
 from signorini.fem.varying import at_nodes
 from signorini.model.links import directions
 from signorini.model.model import Model
+from signorini.sparse_rows import renumbered, rows_of, selection, transposed, turned_rows
 
 _AGREEMENT_TOL = 1e-9  # of what supports prescribe: what equations may ask otherwise of it
 
@@ -55,10 +56,19 @@ class Constraints:
         found: Array = self._transposed @ forces
         return found
 
+    def in_free(self, rows: sp.csr_array) -> sp.csr_array:
+        """(k, z) Rows (k, dofs), whose entries stand at one place each, in terms of the free displacements, ``B T``."""
+        count = self.transform.shape[1]
+        if len(self.transform.indices) != count or len(self.dependent):
+            return sp.csr_array(rows @ self.transform)
+        found = turned_rows(renumbered(rows, self.free, count))  # with the digits that the product has
+        found.eliminate_zeros()
+        return found
+
     @cached_property
     def _transposed(self) -> sp.csc_array:
         """T^T, asked for in every round of small models."""
-        return self.transform.T
+        return transposed(self.transform)
 
     @property
     def leaders(self) -> IntArray:
@@ -138,7 +148,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     given = _prescribed(space, model, links, without)
     leader = _leaders(space, model, given)
     total = space.number_of_dofs
-    follows, shares = np.zeros(total, bool), sp.csr_array((0, total))
+    follows, shares = np.zeros(total, bool), selection(np.empty(0, np.int32), total)
     if links is not None:
         # dofs of a rigid loaded boundary are one unknown
         C = sp.csr_array(links.C @ selection(leader, total))
@@ -154,7 +164,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     given_rows = free >= 0
     start = np.concatenate([np.zeros(1, np.int32), np.cumsum(given_rows, dtype=np.int32)])
     columns = free[given_rows].astype(np.int32)
-    T = sp.csr_array((np.ones(len(columns)), columns, start), shape=(total, len(unknown)))
+    T = rows_of(np.ones(len(columns)), columns, start, (total, len(unknown)))
     dependent = np.flatnonzero(free == -2)
     if len(dependent):
         shares = shares[np.searchsorted(np.flatnonzero(follows), leader[dependent])]

@@ -38,9 +38,8 @@ from signorini.friction.pull_away import Pull, pulled_away
 from signorini.friction.space.proximal import proximal_rounds
 from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, SLIP_MINUS, UNDECIDED
-from signorini.settings import SolverSettings
+from signorini.settings import DEFAULT_SETTINGS, SolverSettings
 
-_DEFAULTS = SolverSettings()  # checked once: small problems are solved thousands of times
 _SWEEPS = 20  # of one round, before proximal Newton
 _RUNAWAY_GROWTH = 10.0  # of motions between two stiffnesses of springs, a thousandth of each other
 
@@ -82,7 +81,7 @@ def solve_contact(
     >>> answer.outcome, answer.r.round(12).tolist()
     ('solved', [[2.0], [-0.12], [-0.16]])
     """
-    settings, first = settings or _DEFAULTS, _checked(problem, start)
+    settings, first = settings or DEFAULT_SETTINGS, _checked(problem, start)
     if problem.pairs == 0:
         return nothing_to_solve(problem)
     tolerance, tried = max(settings.tolerance, allowed), list[Candidate]()

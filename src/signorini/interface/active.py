@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, scaled_rows
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.interface.interface import Interface
+from signorini.sparse_rows import scaled_rows
 
 _HELD_TOL = 1e-12  # of the size of a row of B: below it supports hold what the row sees
 
@@ -59,7 +60,8 @@ def active_pairs(B: sp.csr_array, interface: Interface, candidates: BoolArray) -
     interface : the pairs
     candidates : (n,) pairs that may touch
     """
-    moves = np.sqrt(np.asarray(B.multiply(B).sum(axis=1)).ravel()) > _HELD_TOL
+    row = np.repeat(np.arange(B.shape[0]), np.diff(B.indptr))
+    moves = np.sqrt(np.bincount(row, B.data**2, minlength=B.shape[0])) > _HELD_TOL
     seen = scaled_rows(B, moves.astype(np.float64))
     seen.eliminate_zeros()
     held = ~moves[: len(interface)] & (interface.normal_compliance == 0.0)

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray, scaled_rows
+from signorini.arrays import Array, IntArray
+from signorini.sparse_rows import added, scaled_rows
 
 _KNOWN = 1e-7  # of what facets are beside the surface that they stand for: it is not known better
 
@@ -110,7 +111,7 @@ def joined_gaps(parts: Sequence[FacetGaps]) -> FacetGaps:
 def along(forces: tuple[sp.csr_array, ...], directions: Array) -> sp.csr_array:
     """Component of the vectors of every pair along a direction of its own (k, d), (k, nodes of the mesh)."""
     first, *others = (scaled_rows(force, directions[:, i]) for i, force in enumerate(forces))
-    return sp.csr_array(sum(others, first))
+    return reduce(added, others, first)
 
 
 def point_coupling(

@@ -26,6 +26,7 @@ from signorini.law.cohesion import Bonds, PairCohesion, bonded
 from signorini.law.friction import FrictionLaw, PairFriction
 from signorini.law.section import FrictionSection
 from signorini.model.model import Model
+from signorini.sparse_rows import chosen_rows, transposed
 
 _SHARED_COMPLIANCE = 1e-8  # of the size of the model over the softest modulus
 _AXIS_TOL = 1e-6  # component of a unit vector
@@ -92,7 +93,7 @@ class Interface:
 
     def rows(self, pairs: BoolArray) -> BoolArray:
         """(d n,) the rows of B that belong to some pairs (n,)."""
-        return np.tile(pairs, self.directions)
+        return np.concatenate([pairs] * self.directions)
 
     def among(self, kept: BoolArray) -> Interface:
         """Some of the pairs (n,)."""
@@ -105,7 +106,7 @@ class Interface:
             parts["closure"] = self.closure.among(kept)
         if self.cohesion is not None:
             parts["cohesion"] = self.cohesion.among(kept)
-        return replace(self, B=self.B[self.rows(kept)], friction=self.friction.among(kept), **parts)
+        return replace(self, B=chosen_rows(self.B, self.rows(kept)), friction=self.friction.among(kept), **parts)
 
     def motion(self, displacement: Array) -> Array:
         """(d, n) Motions of the pairs, ``B u``, that displacements (dofs,) are, length."""
@@ -120,7 +121,7 @@ class Interface:
     @cached_property
     def _transposed(self) -> sp.csc_array:
         """B^T, asked for in every round of small models."""
-        return self.B.T
+        return transposed(self.B)
 
     def felt(self, motions: sp.csr_array) -> sp.csr_array:
         """(d n, k) What the pairs see of motions (dofs, k), ``B X``; the last ones are not asked twice."""

@@ -30,14 +30,14 @@ def moments_of_rows(B: sp.csr_array, space: Space, own: Sequence[IntArray], cont
     (rows, 1) in the plane, counterclockwise, with twist about the axis of revolution; (rows, 3) in space; length
     """
     points, c = space.mesh.points, space.components
-    entries = B.tocoo()
-    node, axis = np.divmod(entries.col.astype(np.int64), c)
+    rows = np.repeat(np.arange(B.shape[0]), np.diff(B.indptr))
+    node, axis = np.divmod(B.indices.astype(np.int64), c)
     inside: BoolArray = np.zeros((len(own), len(points)), np.bool_)
     for i, nodes in enumerate(own):
         inside[i, nodes] = True
     there = node < len(points)
-    there[there] = inside[contact[entries.row[there]], node[there]]
-    row, node, axis, value = entries.row[there], node[there], axis[there], entries.data[there]
+    there[there] = inside[contact[rows[there]], node[there]]
+    row, node, axis, value = rows[there], node[there], axis[there], B.data[there]
     x = points[node]
     if c > space.dimension:
         arm = np.where(axis == 2, x[:, 0], 0.0)[:, None]

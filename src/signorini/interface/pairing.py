@@ -10,7 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.spatial import KDTree
 
-from signorini.arrays import Array, BoolArray, IntArray, selection
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
 from signorini.fem.facet_block import FacetBlock
@@ -32,6 +32,7 @@ from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle, Plane
 from signorini.model.triangulated import Surface
 from signorini.model.varying import Varying
+from signorini.sparse_rows import selection
 
 _FINER_RATIO = 0.8  # of the mortar side's mean facet length
 

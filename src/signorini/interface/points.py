@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, selection
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary
 from signorini.fem.facet_block import FacetBlock
@@ -18,6 +18,7 @@ from signorini.interface.overlap import interpolate, parameter
 from signorini.interface.projection import meet
 from signorini.interface.smooth import Smooth, rises
 from signorini.interface.tilt import areas_between
+from signorini.sparse_rows import selection
 
 _ON_FACET_TOL = 1e-9  # of the reference facet: a node this far beyond its edge still lies on it
 

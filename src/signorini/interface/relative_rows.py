@@ -8,13 +8,14 @@ from collections.abc import Sequence
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, scaled_rows
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.fem.obstacles import carried, placed
 from signorini.fem.space import Space
 from signorini.interface.coupling import along
 from signorini.interface.hoop import hoop_rows
 from signorini.interface.pairing import Pairs
 from signorini.model.model import Model
+from signorini.sparse_rows import added, of_entries, scaled_rows, stacked
 
 
 def relative_rows(
@@ -44,14 +45,14 @@ def relative_rows(
         twisted = _stacked([hoop_rows(part.coupling, part.own, radii) for part in parts], count)
         around = scaled_rows(twisted, 1.0 / area)
         rows.append(_with_obstacles(space, model, carrier, (nothing, nothing, around)))
-    B = sp.csr_array(sp.vstack(rows))
+    B = stacked(rows)
     B.sum_duplicates()  # entries in order from the start: sums do not depend on who has looked at them before
     return B
 
 
 def _stacked(rows: Sequence[sp.csr_array], count: int) -> sp.csr_array:
     """Rows (k, count) one below the other; of one matrix, which most models have, itself."""
-    return rows[0] if len(rows) == 1 else sp.vstack([sp.csr_array((0, count)), *rows]).tocsr()
+    return rows[0] if len(rows) == 1 else stacked([sp.csr_array((0, count)), *rows])
 
 
 def _about(space: Space, model: Model, j: int) -> Array:
@@ -68,7 +69,7 @@ def _sliding_rows(closing: tuple[sp.csr_array, ...], normals: Array, axes: Array
     """
     onto, aside = along(closing, normals), along(closing, axes)
     return tuple(
-        sp.csr_array(scaled_rows(onto, axes[:, i]) - scaled_rows(aside, normals[:, i])) for i in range(axes.shape[1])
+        added(scaled_rows(onto, axes[:, i]), scaled_rows(aside, normals[:, i]), -1.0) for i in range(axes.shape[1])
     )
 
 
@@ -77,7 +78,7 @@ def _with_obstacles(space: Space, model: Model, carrier: IntArray, weights: tupl
     rows = np.concatenate([np.repeat(np.arange(len(carrier)), np.diff(part.indptr)) for part in weights])
     columns = np.concatenate([space.dofs(part.indices.astype(np.int64))[:, i] for i, part in enumerate(weights)])
     values = np.concatenate([part.data for part in weights])
-    bodies = sp.csr_array((values, (rows, columns)), shape=(len(carrier), space.dofs_of_nodes))
+    bodies = of_entries(values, rows, columns, (len(carrier), space.dofs_of_nodes))
     bodies.eliminate_zeros()
     if not model.obstacles and not model.rigid_bodies:
         return bodies

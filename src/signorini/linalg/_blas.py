@@ -76,14 +76,18 @@ class Scratch(NamedTuple):
     letters: NDArray[np.uint8]
 
 
+_FACTORS, _LETTERS = np.array([1.0, -1.0, 0.0]), b"LRTNU"
+_FRESH = np.frombuffer(_FACTORS.tobytes() + bytes(24) + _LETTERS + bytes(3))  # factors, sizes, letters
+
+
 def scratch() -> Scratch:
     """Give fresh memory for the arguments of BLAS; one per thread."""
-    size, kept = np.zeros(6, np.int32), np.array([1.0, -1.0, 0.0])
-    letters = np.frombuffer(b"LRTNU", np.uint8).copy()
-    letter, number = letters.ctypes.data, kept.ctypes.data  # which take longer to ask for than all else
-    left, right, transposed, plain = letter, letter + 1, letter + 2, letter + 3
-    upper, one, minus_one, zero = letter + 4, number, number + 8, number + 16
-    return Scratch(size, size.ctypes.data, left, right, transposed, plain, upper, one, minus_one, zero, kept, letters)
+    memory = _FRESH.copy()
+    number = memory.ctypes.data  # which takes longer to ask for than all else
+    kept, size, letters = memory[:3], memory[3:6].view(np.int32), memory[6:].view(np.uint8)[:5]
+    left, right, transposed, plain, upper = number + 48, number + 49, number + 50, number + 51, number + 52
+    one, minus_one, zero = number, number + 8, number + 16
+    return Scratch(size, number + 24, left, right, transposed, plain, upper, one, minus_one, zero, kept, letters)
 
 
 class StoredMatrix(NamedTuple):

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol, Self, runtime_checkable
+from typing import Any, Protocol, Self, TypeGuard
 
 from numpy.typing import ArrayLike
 from scipy import sparse
@@ -12,7 +12,6 @@ from signorini.arrays import Array, IntArray
 from signorini.linalg.protocol import Factorisation
 
 
-@runtime_checkable
 class MatrixElsewhere(Protocol):
     """A symmetric matrix (n, n) whose rows others hold and factorise."""
 
@@ -63,3 +62,12 @@ class MatrixElsewhere(Protocol):
         NotPositiveDefinite
             If the interior is singular or indefinite.
         """
+
+
+def is_elsewhere(matrix: Any) -> TypeGuard[MatrixElsewhere]:
+    """Whether the rows of a matrix are elsewhere: known by one method, which takes no look at all of them.
+
+    >>> is_elsewhere(sparse.csr_array((1, 1)))
+    False
+    """
+    return hasattr(matrix, "factorised")

@@ -52,7 +52,8 @@ def nested_dissection(graph: NodeGraph) -> Int32Array:
         with Crew(number_of_threads() if graph.interior > SHARED_PIECE else 1) as crew:
             sorts = [partial(np.argsort, direction, kind="stable") for direction in (*axes, *diagonals)]
             return _dissected(inside, np.array(crew.each(sorts), dtype=np.int32), len(axes), crew)
-    order, _ = pymetis.nested_dissection(pymetis.CSRAdjacency(*inside))
+    edges = (part.astype(np.int64) for part in inside)  # METIS's own integers: others it reads one by one
+    order, _ = pymetis.nested_dissection(pymetis.CSRAdjacency(*edges))
     return np.asarray(order, dtype=np.int32)
 
 

@@ -173,7 +173,8 @@ def _postordered(graph: NodeGraph, nodes: Int32Array) -> Elimination:
     """Order the nodes by a postorder of the tree of a given order."""
     order = np.arange(len(graph.start) - 1, dtype=np.int32)
     order[: graph.interior] = nodes
-    place = np.argsort(order).astype(np.int32)
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order), dtype=np.int32)
     parent = _symbolic.elimination_tree(graph.edges, Elimination(order, place), graph.interior)
     order[: graph.interior] = order[_symbolic.postorder(parent)]
     place[order] = np.arange(len(order), dtype=np.int32)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from signorini.errors import InputError, one_of
 from signorini.linalg import multifrontal, pardiso, superlu
-from signorini.linalg.elsewhere import MatrixElsewhere
+from signorini.linalg.elsewhere import is_elsewhere
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation
 from signorini.linalg.system import System, checked_system
@@ -83,7 +83,7 @@ def factorise(
     >>> reduced.expand(np.array([2.0]))
     array([2., 2.])
     """
-    if isinstance(K, MatrixElsewhere):
+    if is_elsewhere(K):
         return K.factorised(interface)
     name = AUTOMATIC if backend == "auto" else backend
     if name not in BACKENDS:

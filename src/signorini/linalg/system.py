@@ -114,7 +114,7 @@ def checked_system(K: Any, interface: ArrayLike, nodes: ArrayLike | None, points
     shape = getattr(K, "shape", ())
     if not sparse.issparse(K) or shape != shape[:1] * 2:
         raise InputError(f"K is {type(K).__name__} of shape {shape}; expected a square sparse matrix")
-    matrix = sparse.csr_array(cast(Any, K))
+    matrix = K if isinstance(K, sparse.csr_array) else sparse.csr_array(cast(Any, K))
     n = matrix.shape[0]
     if matrix.nnz > np.iinfo(np.int32).max:
         raise InputError(f"K has {matrix.nnz} entries; expected at most 2^31 - 1")

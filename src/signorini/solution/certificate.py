@@ -17,6 +17,7 @@ from signorini.plasticity.state import PlasticState
 from signorini.short import Short
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.state import State
+from signorini.sparse_rows import transposed
 
 TOLERANCE = 1e-8
 """Every number of a certificate is at most this, or the answer is no solution."""
@@ -127,7 +128,7 @@ def certify(
     if state.plastic is not None:
         applied = applied + state.plastic.forces
     residual = constraints.on_free(system.K @ u - applied)
-    balance = motions.T @ (state.external + constraints.foundation_forces(u) + of_pairs)
+    balance = transposed(motions) @ (state.external + constraints.foundation_forces(u) + of_pairs)
     moved = (interface.motion(u) + interface.give(r, state.borne)) / scale.length
     gap = state.point.gap / scale.length + moved[0]
     normal, tangential = r[0] / scale.force, r[1:] / scale.force

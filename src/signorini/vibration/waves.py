@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray, selection
+from signorini.arrays import Array, IntArray
 from signorini.errors import InputError
 from signorini.fem.cyclic import cyclic_sides
 from signorini.fem.links import Links, eliminate
@@ -21,6 +21,7 @@ from signorini.fem.supports import make_constraints
 from signorini.interface.sectors import wave_motions
 from signorini.model.model import Model
 from signorini.solution.checkpoint import Checkpoint
+from signorini.sparse_rows import selection
 from signorini.vibration.bodies import VibratingBodies, vibrating_bodies
 
 _SAME_TURN_TOL = 1e-12  # entry of a rotation
