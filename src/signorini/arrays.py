@@ -8,6 +8,7 @@ from copy import copy
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import ArrayLike, NDArray
 
 if TYPE_CHECKING:
@@ -82,6 +83,17 @@ def stored(data: Any, name: str) -> Any:
     data, name : the data and their field
     """
     return vars(data)[name]
+
+
+def operand(data: Any, name: str) -> Any:
+    """A field of a dataclass to be computed with: the array, or one elsewhere that is computed with where it is.
+
+    Parameters
+    ----------
+    data, name : the data and their field
+    """
+    value = stored(data, name)
+    return value if isinstance(value, NDArrayOperatorsMixin) else getattr(data, name)
 
 
 def frozen(values: ArrayLike, dtype: Any = np.float64) -> NDArray[Any]:

@@ -230,9 +230,14 @@ class Space:
     @property
     def arms(self) -> Array:
         """(dofs,) What forces are multiplied by in resultants: 1, with twist along the hoop the radius: a torque."""
-        arms = np.ones(self.number_of_dofs)
+        return self.arms_at(np.arange(self.number_of_dofs))
+
+    def arms_at(self, dofs: IntArray) -> Array:
+        """(k,) Those of some dofs (k,)."""
+        arms = np.ones(len(dofs))
         if self.components > self.dimension:
-            self.at_nodes(arms)[:, 2] = self.mesh.points[:, 0]
+            hoop = (dofs % self.components == 2) & (dofs < self.dofs_of_nodes)
+            arms[hoop] = self.mesh.points[dofs[hoop] // self.components, 0]
         return arms
 
     def farthest(self, displacement: Array) -> float:

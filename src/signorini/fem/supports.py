@@ -50,6 +50,35 @@ class Constraints:
     dependent: IntArray
     shares: sp.csr_array
 
+    @property
+    def zeros(self) -> Array:
+        """(dofs,) Zeros, where vectors of all displacements are: here, or on the ranks of MPI."""
+        return np.zeros(len(self.free))
+
+    def placed(self, values: Array) -> Array:
+        """Values (dofs,), which nobody changes, where vectors of all displacements are."""
+        return values
+
+    def spread(self, dofs: IntArray, values: Array) -> Array:
+        """(dofs,) Values at some dofs (k,), each once, zero elsewhere, where vectors of all displacements are."""
+        result = self.zeros
+        result[dofs] = values
+        return result
+
+    def displaced(self, free: Array) -> Array:
+        """(dofs,) Displacements by free ones (z,) alone, ``T z``."""
+        found: Array = self.transform @ free
+        return found
+
+    def free_of(self, displacement: Array) -> Array:
+        """(z,) The free displacements in some of all dofs (dofs,)."""
+        return displacement[self.leaders]
+
+    def resultants(self, motions: sp.csr_array, forces: Array) -> Array:
+        """(k,) Work of forces (dofs,) on rigid motions (dofs, k)."""
+        found: Array = motions.T @ forces
+        return found
+
     def on_free(self, forces: Array) -> Array:
         """(z,) What forces (dofs,) are on the free displacements, ``T^T f``."""
         found: Array = self._transposed @ forces
