@@ -118,6 +118,15 @@ def read_only(values: ArrayLike) -> Array:
     return array if not array.flags.writeable and array.base is None else frozen(array)
 
 
+def index_type(largest: int) -> type[np.integer[Any]]:
+    """Of numbers up to the largest one: half as wide as usual where they fit.
+
+    >>> index_type(7).__name__, index_type(2**31).__name__
+    ('int32', 'int64')
+    """
+    return np.int32 if largest <= np.iinfo(np.int32).max else np.int64
+
+
 def distinct(values: IntArray) -> IntArray:
     """The different values in ascending order; on many scattered ones several times faster than ``np.unique``.
 

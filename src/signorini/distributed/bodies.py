@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, index_type
 from signorini.distributed.partition import pair_owners
 from signorini.distributed.parts import AskedOfPairs, RowsOfBodies, answer_pairs, hold_bodies, hold_pairs
 from signorini.distributed.rank_arrays import ArrayOnRanks, Cut
@@ -57,7 +57,8 @@ class RowsOnRanks:
         block = np.empty(len(known), dtype=np.int64)
         block[np.argsort(owner, kind="stable")] = np.arange(len(known))
         axis = constraints.leaders % d
-        self.blocks = Blocks(size=d, count=len(known), place=d * block[index] + axis)
+        place = (d * block[index] + axis).astype(index_type(d * len(known)))
+        self.blocks = Blocks(size=d, count=len(known), place=place)
         self.ends = d * np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=self.team.size))])
         nodes = np.bincount(K.owner, minlength=self.team.size)
         self.centres = np.stack([np.bincount(K.owner, x, self.team.size) for x in points.T], axis=1) / nodes[:, None]

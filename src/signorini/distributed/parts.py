@@ -27,7 +27,7 @@ class RowsOfBodies(NamedTuple):
     ----------
     transform : (p, c) displacements of its piece from the c free ones that move it, ascending
     place : (c,) where those are among all unknowns
-    at : (own,) where those of this rank are among its own unknowns, ascending
+    at : (own,) where the free ones of this rank are among its own unknowns
     first, last : its own unknowns, in blocks of d
     size, d : unknowns of all ranks, and of a node
     near_null : (own, k) motions that hardly need a force

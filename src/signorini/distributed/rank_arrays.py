@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import Array, IntArray, frozen, index_type
 from signorini.distributed.kept_rows import RowsKept, give, keep
 from signorini.distributed.ranks import Team
 
@@ -44,7 +44,7 @@ class Cut:
     ) -> None:
         self.team, self.size, self.rank_of, self.entries_of = team, size, rank_of, entries_of
         self.number = team.kept(self)
-        narrow = np.int32 if size <= np.iinfo(np.int32).max else np.int64
+        narrow = index_type(size)
         team.everywhere(keep, self.number, pieces=(own.astype(narrow) for own in self.entries()))
 
     def entries(self) -> Iterator[IntArray]:

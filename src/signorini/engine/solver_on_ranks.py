@@ -86,7 +86,7 @@ def solver_on_ranks(
     settings : limits of the rounds
     """
     rows = _rows(examined, K)
-    examined.space.forget_facets()
+    examined.space.forget("facets", "facets_at_boundaries", "volumes")
     B, points = sp.csr_array(examined.interface.B @ examined.constraints.transform), examined.space.mesh.points
     bodies = make_bodies_on_ranks(rows, points, B, examined.interface, candidates)
     constraints = ConstraintsOnRanks.of(examined.constraints, rows, examined.motions)

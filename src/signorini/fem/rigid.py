@@ -11,7 +11,7 @@ import scipy.linalg
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from signorini.arrays import Array, IntArray, among, extent
+from signorini.arrays import Array, IntArray, among, extent, index_type
 from signorini.fem.obstacles import arm
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
@@ -174,8 +174,9 @@ def rigid_motions(space: Space, parts: tuple[ConnectedBody, ...]) -> sp.csr_arra
                 rows.append(dofs)
                 columns.append(np.full(len(dofs), start[i] + kept.index(k)))
                 values.append(value)
-    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return sp.csr_array(entries, shape=(space.number_of_dofs, int(start[-1])))
+    narrow = index_type(space.number_of_dofs)
+    places = tuple(np.concatenate(numbers, dtype=narrow, casting="same_kind") for numbers in (rows, columns))
+    return sp.csr_array((np.concatenate(values), places), shape=(space.number_of_dofs, int(start[-1])))
 
 
 def _rotation_planes(dimension: int) -> tuple[tuple[int, int], ...]:

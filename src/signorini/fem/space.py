@@ -209,15 +209,26 @@ class Space:
         named = itertools.chain.from_iterable(mesh.facets(name) for name in mesh.boundaries)
         return make_facets(mesh, among(named, len(mesh.points)))
 
-    def forget_facets(self) -> None:
-        """Let go of what is made anew where somebody asks: larger than the mesh, and of use before it is solved."""
-        self.__dict__.pop("facets", None)
+    def forget(self, *names: str) -> None:
+        """Let go of what is made anew where somebody asks: as large as the mesh, and of use before it is solved.
+
+        Parameters
+        ----------
+        names : of properties
+        """
+        for name in names:
+            self.__dict__.pop(name, None)
 
     @cached_property
     def volumes(self) -> tuple[Array, ...]:
         """Quadrature weights times ``|det dx/dX|``, (m, q) a block: area of each quadrature point."""
         points = self.mesh.points
         return tuple(np.abs(cell_determinants(points, b.cells, b.gradients)) * b.weights for b in self.blocks)
+
+    @cached_property
+    def volume(self) -> float:
+        """Of all cells."""
+        return sum(float(volumes.sum()) for volumes in self.volumes)
 
     def volumes_of(self, block: Block) -> Array:
         """Area of each quadrature point of a block, (m, q)."""

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, selection
+from signorini.arrays import Array, BoolArray, IntArray, index_type, selection
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
@@ -188,12 +188,13 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     if len(dependent):
         shares = shares[np.searchsorted(np.flatnonzero(follows), leader[dependent])]
         T = sp.csr_array(T + selection(dependent, total).T @ (shares @ T))
+    narrow = index_type(total)
     made = Constraints(
-        free=free,
+        free=free.astype(narrow),
         transform=T,
         prescribed={},
         springs=make_springs(space, model) if model.foundations else {},
-        owner=given.owner,
+        owner=given.owner.astype(narrow),
         nodes=unknown // space.components,
         dependent=dependent,
         shares=shares,
