@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
@@ -82,6 +83,17 @@ def stored(data: Any, name: str) -> Any:
     return vars(data)[name]
 
 
+def operand(data: Any, name: str) -> Any:
+    """A field of a dataclass to be computed with: the array, or one elsewhere that is computed with where it is.
+
+    Parameters
+    ----------
+    data, name : the data and their field
+    """
+    value = stored(data, name)
+    return value if isinstance(value, NDArrayOperatorsMixin) else getattr(data, name)
+
+
 def frozen(values: ArrayLike, dtype: Any = np.float64) -> NDArray[Any]:
     """A read-only copy: values that are shared are never edited.
 
@@ -102,6 +114,15 @@ def read_only(values: ArrayLike) -> Array:
     """
     array = np.asarray(values, dtype=np.float64)
     return array if not array.flags.writeable and array.base is None else frozen(array)
+
+
+def index_type(largest: int) -> type[np.integer[Any]]:
+    """Of numbers up to the largest one: half as wide as usual where they fit.
+
+    >>> index_type(7).__name__, index_type(2**31).__name__
+    ('int32', 'int64')
+    """
+    return np.int32 if largest <= np.iinfo(np.int32).max else np.int64
 
 
 def distinct(values: IntArray) -> IntArray:

@@ -24,7 +24,7 @@ from tests.helpers.fake_ranks import RanksInTurn
 @pytest.mark.parametrize("rows", [0, 1, 2, 7])
 def test_every_rank_has_a_share_and_all_together_the_array(rows):
     team, array = RanksInTurn(3), np.arange(3.0 * rows).reshape(rows, 3)
-    kept = RowsKept(team, array)
+    kept = RowsKept.of(team, array)
     sizes = [len(own[kept._number]) for own in team.kept_by_rank]
     assert sum(sizes) == rows
     assert max(sizes) - min(sizes) <= 1

@@ -35,7 +35,7 @@ class Answer:
     def certificate(self, u=None, r=None):
         p, u, r = self.prepared, self.u if u is None else u, self.r if r is None else r
         factors = p.model.factors()
-        before = initial_state(factors[0], len(u), p.interface)
+        before = initial_state(factors[0], np.zeros(len(u)), p.interface)
         state = next_state(
             p,
             before,
@@ -84,7 +84,7 @@ def test_equilibrium_of_resultants(answer):
     """A force of the supports too many shows on the rigid motions, though every node is in balance."""
     p, r = answer.prepared, answer.r
     factors = p.model.factors()
-    state = initial_state(factors[0], len(answer.u), p.interface)
+    state = initial_state(factors[0], np.zeros(len(answer.u)), p.interface)
     external = p.K @ answer.u - p.interface.on_bodies(r)
     wrong = external.copy()
     wrong[2 * p.interface.node[answer.open[-1]] + 1] += 1e-6 * answer.force

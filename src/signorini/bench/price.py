@@ -115,7 +115,7 @@ def _fixed(prepared: Prepared) -> tuple[sp.csr_array, IntArray, Array, Array]:
     keep = np.setdiff1d(np.arange(T.shape[1]), prepared.paths.condensed.dofs)
     K = sp.csr_array((T.T @ prepared.K @ T)[keep][:, keep])
     factors = dict.fromkeys(prepared.model.scaled_names, 1.0)
-    full = initial_state(factors, prepared.space.number_of_dofs, prepared.interface).point
+    full = initial_state(factors, prepared.constraints.zeros, prepared.interface).point
     return K, prepared.constraints.nodes[keep], prepared.space.places, free_load(prepared, full)[keep]
 
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, index_type
 from signorini.distributed.partition import pair_owners
 from signorini.distributed.parts import AskedOfPairs, RowsOfBodies, answer_pairs, hold_bodies, hold_pairs
+from signorini.distributed.rank_arrays import ArrayOnRanks, Cut
 from signorini.distributed.ranks import PETSC
 from signorini.distributed.stiffness import StiffnessOnRanks
 from signorini.fem.space import Space
@@ -55,7 +57,8 @@ class RowsOnRanks:
         block = np.empty(len(known), dtype=np.int64)
         block[np.argsort(owner, kind="stable")] = np.arange(len(known))
         axis = constraints.leaders % d
-        self.blocks = Blocks(size=d, count=len(known), place=d * block[index] + axis)
+        place = (d * block[index] + axis).astype(index_type(d * len(known)))
+        self.blocks = Blocks(size=d, count=len(known), place=place)
         self.ends = d * np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=self.team.size))])
         nodes = np.bincount(K.owner, minlength=self.team.size)
         self.centres = np.stack([np.bincount(K.owner, x, self.team.size) for x in points.T], axis=1) / nodes[:, None]
@@ -79,6 +82,7 @@ class RowsOnRanks:
             yield RowsOfBodies(
                 transform=sp.csr_array((moved.data, numbered, moved.indptr), shape=(len(dofs), len(columns))),
                 place=place[columns],
+                at=(place[own] - first).astype(np.int32),
                 first=first,
                 last=last,
                 size=d * self.blocks.count,
@@ -89,9 +93,18 @@ class RowsOnRanks:
                 ),
             )
 
-    def parts(self, values: Array) -> list[Array]:
-        """Values of free displacements (z,) on the unknowns of every rank."""
-        return np.split(self.blocks.spread(values), self.ends[1:-1])
+    @cached_property
+    def unknowns(self) -> Cut:
+        """The free displacements of every rank."""
+        place, ends = self.blocks.place, self.ends
+
+        def rank_of(free: IntArray) -> IntArray:
+            return np.searchsorted(ends, place[free], side="right") - 1
+
+        def entries_of(rank: int) -> IntArray:
+            return np.flatnonzero((place >= ends[rank]) & (place < ends[rank + 1]))
+
+        return Cut(self.team, len(place), rank_of, entries_of)
 
     def pair_owners(self, columns: sp.csr_array, at: Array) -> IntArray:
         """(a,) The rank that has each pair, see :func:`signorini.distributed.partition.pair_owners`.
@@ -149,19 +162,20 @@ class BodiesOnRanks(IteratedPairs):
     on_ranks: PairsHeld
     name: str = PETSC
 
-    def answered(self, load: IncrementLoad, free: Array, forces: Array) -> tuple[ContactAnswer, Array]:
-        """Solve one increment on all ranks, see `IteratedPairs.answered`.
+    def answered(self, load: IncrementLoad, free: Any, forces: Array) -> tuple[ContactAnswer, Any]:
+        """Solve one increment on all ranks, see `IteratedPairs.answered`; displacements stay there.
 
         Parameters
         ----------
-        load, free, forces : as there; the forces of the load are on the free displacements
+        load, free, forces : as there; the forces of the load are on the free displacements, here or on the ranks
         """
-        asked = self._asked(load, free, forces)
-        found = self.rows.team.everywhere(answer_pairs, self.on_ranks.number, self.patience, pieces=asked)
-        answers = [answer for answer, _ in found]
+        unknowns = self.rows.unknowns
+        pressing, near, z = unknowns.of(load.f), unknowns.of(free), ArrayOnRanks(unknowns, np.float64)
+        numbers = pressing.number, near.number, z.number
+        asked = self._asked(replace(load, f=np.zeros(0)), forces)
+        answers = self.rows.team.everywhere(answer_pairs, self.on_ranks.number, self.patience, *numbers, pieces=asked)
         joined = {name: self._together([getattr(answer, name) for answer in answers]) for name in ("h", "r", "state")}
-        z = np.concatenate([part for _, part in found])
-        return replace(answers[0], **joined), z[self.blocks.place]
+        return replace(answers[0], **joined), z
 
     def among(self, kept: BoolArray) -> BodiesOnRanks:
         """Bodies with fewer pairs.
@@ -174,13 +188,11 @@ class BodiesOnRanks(IteratedPairs):
         B = self.B[np.flatnonzero(np.tile(own, self.directions))]
         return replace(self, B=B, on_ranks=PairsHeld(self.rows, B, self.on_ranks.at[own]), **self.parts_among(kept))
 
-    def _asked(self, load: IncrementLoad, free: Array, forces: Array) -> Iterator[AskedOfPairs]:
-        pressing, start = self.rows.parts(load.f), self.rows.parts(free)
+    def _asked(self, load: IncrementLoad, forces: Array) -> Iterator[AskedOfPairs]:
         for rank in range(self.rows.team.size):
             own = self.on_ranks.owner == rank
             yield AskedOfPairs(
-                load=replace(load, f=pressing[rank], offset=load.offset[:, own], bound=load.bound.among(own)),
-                z=start[rank],
+                load=replace(load, offset=load.offset[:, own], bound=load.bound.among(own)),
                 forces=forces[:, own],
                 tied=self.tied[own],
                 stiffness=self.stiffness[own],

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array, frozen
+from signorini.arrays import Array, IntArray, frozen
 from signorini.distributed.ranks import Team, several_ranks
 
 _WORTH = 4096
@@ -27,23 +29,50 @@ class RowsKept:
     Parameters
     ----------
     team : the ranks
-    array : what they are to keep
+    shape, dtype : of the array
+    gathered : numbers under which ranks hold entries of it, ascending, and those entries themselves
+    array : all of it, where it is here
     """
 
-    def __init__(self, team: Team, array: Array) -> None:
-        self.shape, self.dtype = array.shape, array.dtype
+    def __init__(
+        self,
+        team: Team,
+        shape: tuple[int, ...],
+        dtype: Any,
+        *,
+        gathered: tuple[int, int] | None = None,
+        array: Array | None = None,
+    ) -> None:
+        self.shape, self.dtype = shape, np.dtype(dtype)
         self._team, self._number = team, team.kept(self)
         self._home: Array | None = None
-        self._ends = np.linspace(0, len(array), team.size + 1).astype(np.int64)
-        parts = (array[first:last] for first, last in zip(self._ends[:-1], self._ends[1:], strict=True))
-        team.everywhere(_keep, self._number, pieces=parts)
+        self._ends = np.linspace(0, shape[0], team.size + 1).astype(np.int64)
+        if array is not None:
+            parts = (array[first:last] for first, last in zip(self._ends[:-1], self._ends[1:], strict=True))
+            team.everywhere(keep, self._number, pieces=parts)
+        elif gathered is not None:
+            team.everywhere(_gather, *gathered, self._ends, shape[1:], self._number)
         team.away.add(self)
+
+    @classmethod
+    def of(cls, team: Team, array: Array) -> RowsKept:
+        """An array that is here.
+
+        Parameters
+        ----------
+        team, array : the ranks and what they are to keep
+        """
+        return cls(team, array.shape, array.dtype, array=array)
+
+    def kept(self, *_shape: int) -> RowsKept:
+        """Itself, which has its shape."""
+        return self
 
     def blocks(self) -> Iterator[tuple[int, Array]]:
         """Its rows, a rank's at a time, each with the number of the first."""
         for rank, first in enumerate(self._ends[:-1]):
             if self._home is None:
-                yield int(first), self._team.everywhere(_give, self._number, rank)[rank]
+                yield int(first), self._team.everywhere(give, self._number, rank)[rank]
             else:
                 yield int(first), self._home[first : self._ends[rank + 1]]
 
@@ -71,12 +100,13 @@ class RowsKept:
         return frozen, (self.whole(), self.dtype)
 
 
-def put_away(array: Array) -> Any:
+def put_away(array: Any, shape: tuple[int, ...] = ()) -> Any:
     """An array that ranks keep, a `RowsKept`, where there are several and it is large; otherwise the array itself.
 
     Parameters
     ----------
-    array : read-only
+    array : read-only, or on ranks in other shares
+    shape : of the first entries of what is on ranks, if that is what is wanted of it
 
     Examples
     --------
@@ -85,15 +115,41 @@ def put_away(array: Array) -> Any:
     True
     """
     team = several_ranks()
-    return array if team is None or array.nbytes < _WORTH else RowsKept(team, array)
+    if not isinstance(array, np.ndarray):
+        kept = array.kept(*shape)
+        return kept if team is not None else kept.whole()
+    return array if team is None or array.nbytes < _WORTH else RowsKept.of(team, array)
 
 
-def _keep(team: Team, rows: Array, number: int) -> None:
-    """Keep rows of an array: a copy, so that the rest of it can go."""
+def keep(team: Team, rows: Array, number: int) -> None:
+    """Keep rows of an array: a copy, so that the rest of it can go.
+
+    Parameters
+    ----------
+    team, rows, number : the ranks, what this one keeps, and under which number
+    """
     team.held[number] = frozen(rows, rows.dtype)
 
 
-def _give(team: Team, number: int, rank: int) -> Array | None:
-    """What this rank keeps, where it is asked for."""
+def give(team: Team, number: int, rank: int) -> Array | None:
+    """What this rank keeps, where it is asked for.
+
+    Parameters
+    ----------
+    team, number, rank : the ranks, under which number it is kept, and which of them is asked
+    """
     found: Array = team.held[number]
     return found if team.rank == rank else None
+
+
+def _gather(team: Team, number: int, entries: int, ends: IntArray, row: tuple[int, ...], kept: int) -> None:
+    """Keep a share of rows of what other ranks hold entries of."""
+    width = math.prod(row)
+    values, own = team.held[number], team.held[entries]
+    first = np.searchsorted(own, width * ends)
+    sent = [(own[one:other], values[one:other]) for one, other in pairwise(first)]
+    result = np.empty((int(np.diff(ends)[team.rank]), *row), values.dtype)
+    flat = result.reshape(-1)
+    for here, part in team.comm.alltoall(sent):
+        flat[here - width * int(ends[team.rank])] = part
+    team.held[kept] = frozen(result, result.dtype)

@@ -11,7 +11,7 @@ import numpy as np
 import pymetis
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, index_type
 from signorini.errors import InputError
 from signorini.fem._kernels import node_pattern
 from signorini.fem.space import Space
@@ -104,4 +104,6 @@ def _place_among_own(group: IntArray) -> IntArray:
 
 def _pattern(columns: IntArray, indptr: IntArray, width: int) -> sp.csr_array:
     """Where rows have entries; columns may stand in them more than once."""
-    return sp.csr_array((np.ones(len(columns), dtype=np.bool_), columns, indptr), shape=(len(indptr) - 1, width))
+    narrow = index_type(max(len(columns), width))
+    places = columns.astype(narrow, copy=False), indptr.astype(narrow, copy=False)
+    return sp.csr_array((np.ones(len(columns), dtype=np.bool_), *places), shape=(len(indptr) - 1, width))

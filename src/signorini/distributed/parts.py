@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -27,6 +27,7 @@ class RowsOfBodies(NamedTuple):
     ----------
     transform : (p, c) displacements of its piece from the c free ones that move it, ascending
     place : (c,) where those are among all unknowns
+    at : (own,) where the free ones of this rank are among its own unknowns
     first, last : its own unknowns, in blocks of d
     size, d : unknowns of all ranks, and of a node
     near_null : (own, k) motions that hardly need a force
@@ -35,6 +36,7 @@ class RowsOfBodies(NamedTuple):
 
     transform: sp.csr_array
     place: IntArray
+    at: IntArray
     first: int
     last: int
     size: int
@@ -48,13 +50,12 @@ class AskedOfPairs(NamedTuple):
 
     Attributes
     ----------
-    load : of its own unknowns and pairs
-    z, forces : (own,) displacements and (d, a) forces to start from
+    load : of its own pairs; forces on the bodies are there
+    forces : (d, a) to start from
     tied, stiffness, compliance : (a,), (a,) and (d, a) of its pairs, as of `IteratedPairs`
     """
 
     load: IncrementLoad
-    z: Array
     forces: Array
     tied: BoolArray
     stiffness: Array
@@ -72,7 +73,7 @@ class OwnBodies:
     """
 
     def __init__(self, team: Team, K: sp.csr_array, rows: RowsOfBodies) -> None:
-        self.team, self.d, self.rigid = team, rows.d, rows.rigid
+        self.team, self.d, self.rigid, self.at = team, rows.d, rows.rigid, rows.at
         self.K = matrix(team, _padded(team, K, rows), rows.last - rows.first, rows.d)
         self.K.setOption(self.K.Option.SYMMETRIC, True)
         self._near_null = rows.near_null
@@ -82,6 +83,12 @@ class OwnBodies:
     def grids(self) -> CoarseGrids:
         """Coarse grids, which all ranks make together for the first pairs that are iterated on."""
         return CoarseGrids(self.team, self.K, self._near_null)
+
+    def padded(self, free: Array) -> Array:
+        """(own,) Unknowns of this rank from its free displacements; what supports hold in a block is zero."""
+        result = np.zeros(self.z.getLocalSize())
+        result[self.at] = free
+        return result
 
     def internal(self, z: Array) -> Array:
         """(own,) Forces K z."""
@@ -244,15 +251,20 @@ def hold_pairs(team: Team, B: sp.csr_array, bodies: int, number: int) -> Array:
     return held.felt()
 
 
-def answer_pairs(team: Team, asked: AskedOfPairs, number: int, patience: int) -> tuple[ContactAnswer, Array]:
-    """Solve an increment: the answer of own pairs, and own displacements.
+def answer_pairs(
+    team: Team, asked: AskedOfPairs, number: int, patience: int, pressing: int, near: int, found: int
+) -> ContactAnswer:
+    """Solve an increment: the answer of own pairs; own displacements are kept.
 
     Parameters
     ----------
     team, asked : the ranks, and what this one is asked
     number : under which pairs are held
     patience : of the rounds
+    pressing, near : under which forces on the free displacements are held, and such displacements to start from
+    found : under which displacements will be held
     """
+    bodies: OwnBodies = team.held[number].bodies
     part = PressedPart(
         own=team.held[number],
         tied=asked.tied,
@@ -260,4 +272,7 @@ def answer_pairs(team: Team, asked: AskedOfPairs, number: int, patience: int) ->
         compliance=asked.compliance,
         patience=patience,
     )
-    return solve_iteratively(part, asked.load, asked.z, asked.forces)
+    load = replace(asked.load, f=bodies.padded(team.held[pressing]))
+    answer, z = solve_iteratively(part, load, bodies.padded(team.held[near]), asked.forces)
+    team.held[found] = z[bodies.at]
+    return answer

@@ -144,9 +144,9 @@ class Team:
         What the first one returns may be as large as its interface, and is not sent: MPI would copy it.
         """
         try:
-            for number in dropped:
-                self.held.pop(number, None)
-            if dropped:
+            let_go = [self.held.pop(number, None) for number in dropped]
+            if not all(_is_array(each) for each in let_go):
+                del let_go
                 _garbage_cleanup()
             result = work(self, *own, *given)
             found = self.comm.gather(None if self.first else result)
@@ -227,6 +227,13 @@ def several_ranks() -> Team | None:
     """All ranks of this run where there are several and they work together; otherwise None, and nothing is imported."""
     team = the_team() if the_team.cache_info().currsize else None
     return team if team is not None and team.together and team.size > 1 else None
+
+
+def _is_array(value: Any) -> bool:
+    """Whether something holds nothing of PETSc, on this rank and so on all."""
+    import numpy as np
+
+    return isinstance(value, np.ndarray)
 
 
 def _garbage_cleanup() -> None:

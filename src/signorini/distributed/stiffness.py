@@ -9,8 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, Int32Array, IntArray
+from signorini.distributed.borders import hold_border
 from signorini.distributed.partition import owners
 from signorini.distributed.pieces import Piece, pieces, whole_nodes
+from signorini.distributed.rank_arrays import ArrayOnRanks, Cut
 from signorini.distributed.ranks import Team
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
@@ -41,6 +43,8 @@ class StiffnessOnRanks:
         self._d, self._space, self._model = space.components, space, model
         self.shape = (space.number_of_dofs, space.number_of_dofs)
         self.owner = team.owners[space.mesh] = owners(space, interface.B, team.size)
+        self._vectors: Cut | None = None
+        self._borders = team.kept(self)
         self.cut(constraints)
 
     def cut(self, constraints: Constraints) -> None:
@@ -55,6 +59,36 @@ class StiffnessOnRanks:
         self._own: list[BoolArray] = []
         found = self.team.everywhere(_hold_piece, self.number, pieces=self._pieces(constraints))
         self.nnz = sum(found)
+        if self._vectors is not None:
+            self._hold_borders()
+
+    @property
+    def vectors(self) -> Cut:
+        """The displacements of every rank, of its own nodes; of obstacles and rigid bodies the first one.
+
+        Arrays that are cut like this are multiplied where they are.
+        """
+        if self._vectors is None:
+            d, owner, size = self._d, self.owner, self.shape[0]
+
+            def entries_of(rank: int) -> IntArray:
+                own = (d * np.flatnonzero(owner == rank)[:, None] + np.arange(d)).ravel()
+                return own if rank else np.append(own, np.arange(d * len(owner), size))
+
+            def rank_of(dofs: IntArray) -> IntArray:
+                nodes = dofs // d
+                return np.where(nodes < len(owner), owner[np.minimum(nodes, len(owner) - 1)], 0)
+
+            self._vectors = Cut(self.team, size, rank_of, entries_of)
+            self._hold_borders()
+        return self._vectors
+
+    def _hold_borders(self) -> None:
+        """Have ranks know whose displacements they need beside their own."""
+        place = np.empty(len(self.owner), np.int32)
+        place[np.argsort(self.owner, kind="stable")] = np.arange(len(place), dtype=np.int32)
+        given = self._d, self.number, self._borders
+        self.team.everywhere(hold_border, *given, pieces=(place[nodes] for nodes in self._nodes))
 
     def _pieces(self, constraints: Constraints) -> Any:
         for piece in pieces(self._space, self._model, constraints, self.owner, self._whole):
@@ -84,11 +118,11 @@ class StiffnessOnRanks:
         by = self.owner_of(constraints.nodes)
         return whole_nodes(constraints.transform, self._d, self.owner, by, self.team.size)
 
-    def __matmul__(self, u: Array) -> Array:
+    def __matmul__(self, u: Any) -> Any:
         """(dofs,) Forces K u of displacements u, (dofs,)."""
         return self.forces(u, "plain")
 
-    def internal_forces(self, u: Array) -> Array:
+    def internal_forces(self, u: Any) -> Any:
         """(dofs,) Forces K u as if in twice the digits, see :func:`signorini.fem.internal_forces.internal_forces`."""
         return self.forces(u, "sharp")
 
@@ -96,8 +130,10 @@ class StiffnessOnRanks:
         """|K|, by whose product with |u| rounding is told."""
         return _SizesOnRanks(self)
 
-    def forces(self, u: Array, how: str) -> Array:
-        """(dofs,) Forces of displacements u, (dofs,), see `OwnStiffness.forces`."""
+    def forces(self, u: Any, how: str) -> Any:
+        """(dofs,) Forces of displacements u, (dofs,), see `OwnStiffness.forces`; where u is, here or on the ranks."""
+        if isinstance(u, ArrayOnRanks):
+            return self.vectors.made(_forces_there, self.vectors.of(u), self.number, self._borders, how)
         result = np.zeros(self.shape[0])
         found = self.team.everywhere(_forces, self.number, how, pieces=(u[dofs] for dofs in self.dofs))
         for nodes, own, forces in zip(self._nodes, self._own, found, strict=True):
@@ -108,7 +144,7 @@ class StiffnessOnRanks:
 class _SizesOnRanks(NamedTuple):
     K: StiffnessOnRanks
 
-    def __matmul__(self, u: Array) -> Array:
+    def __matmul__(self, u: Any) -> Any:
         return self.K.forces(u, "sizes")
 
 
@@ -121,3 +157,9 @@ def _hold_piece(team: Team, piece: Piece, number: int) -> int:
 def _forces(team: Team, u: Array, number: int, how: str) -> Array:
     found: Array = team.held[number].forces(u, how)
     return found
+
+
+def _forces_there(team: Team, u: Array, number: int, borders: int, how: str) -> Array:
+    """Forces on the displacements of this rank; nothing of the bodies acts on obstacles, which are behind them."""
+    forces = team.held[number].forces(team.held[borders].with_others(u), how)
+    return np.concatenate([forces, np.zeros(len(u) - len(forces))])

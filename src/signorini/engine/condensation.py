@@ -91,7 +91,7 @@ def condense_bodies(
     """
     rigid = (examined.motions @ examined.floating)[examined.constraints.leaders]
     if not (examined.model.slides or examined.model.wears):  # neither looks for facets again
-        examined.space.forget_facets()
+        examined.space.forget("facets")
     if bodies.K.nnz > _GIVEN_BACK_FROM:
         give_memory_back()
     try:

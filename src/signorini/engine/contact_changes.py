@@ -46,8 +46,7 @@ def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
     overlap = np.where(on, np.maximum(-state.gap, 0.0), 0.0)
     # compliant interfaces let their energy go with the law
     soft = stored_energy(replace(prepared, absent=absent), state) - stored_energy(prepared, state)
-    return replace(
-        state,
+    return state.changed(
         point=replace(state.point, gap=state.point.gap + overlap, given=given),
         gap=state.gap + overlap,
         slip=np.where(on, 0.0, state.slip),

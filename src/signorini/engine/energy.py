@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
@@ -25,8 +24,10 @@ def thermal_energy(prepared: Prepared) -> Callable[[State], float]:
 
     def heat(state: State) -> float:
         s = np.array([state.point.factors.get(name, 0.0) for name in names])
-        forces = sum((s[k] * prepared.loads[name] for k, name in enumerate(names)), np.zeros(len(state.displacement)))
-        return float(0.5 * s @ G @ s - state.displacement @ forces)
+        constraints, (u, _) = prepared.constraints, state.nodal
+        named = (s[k] * constraints.placed(prepared.loads[name]) for k, name in enumerate(names))
+        forces = sum(named, constraints.zeros)
+        return float(0.5 * s @ G @ s - u @ forces)
 
     return heat
 
@@ -42,9 +43,9 @@ def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -
     """
     loss = stored_energy(prepared, before) - stored_energy(prepared, after)
     loss -= after.plastic_work - before.plastic_work
-    work = 0.5 * (before.external + after.external) @ (after.displacement - before.displacement)
-    return replace(
-        after,
+    (u, pressing), (now, pressed) = before.nodal, after.nodal
+    work = 0.5 * (pressing + pressed) @ (now - u)
+    return after.changed(
         dissipation=before.dissipation + taken,
         work=before.work + float(work),
         released=before.released + loss + float(work) - float(taken.sum()),
@@ -53,7 +54,7 @@ def set_free(prepared: Prepared, before: State, after: State, *, taken: Array) -
 
 def stored_energy(prepared: Prepared, state: State) -> float:
     """Elastic, in the bodies, elastic foundations and compliant interfaces; with what closures have taken for good."""
-    u = state.displacement
+    u, _ = state.nodal
     if prepared.turns:
         u = prepared.frames.elastic(u)  # rigid motions store nothing but their rounding
     strain = float(u @ (prepared.K @ u)) if u.any() else 0.0

@@ -60,7 +60,8 @@ def approached(part: StepPart, *, relieving: bool = False) -> FollowedPart | Non
     if not floating.shape[1] or not len(interface):
         return None
     change = change_of_loads(part)
-    work, enough = floating.T @ (transposed(motions) @ change), DRIVES * float(np.abs(change).sum())
+    work = floating.T @ prepared.constraints.resultants(motions, change)
+    enough = DRIVES * float(np.abs(change).sum())
     presses, apart, width = standing(prepared, state)
     overlaps = bool((state.gap[apart] < -width).any())
     if not (relieving if overlaps else np.abs(work).max() > enough):
@@ -105,8 +106,8 @@ def _pulled_away(part: StepPart, motion: Array, share: float) -> SolveFailed:
 def change_of_loads(part: StepPart) -> Array:
     """(dofs,) Change of the nodal forces in a part of a step, with those of contacts that are switched off."""
     prepared, begin, end = part.prepared, part.before.point, part.end
-    loads = applied(prepared, end)[0] - applied(prepared, begin)[0]
-    return np.asarray(loads + prepared.interface.on_bodies(end.given - begin.given))
+    change: Array = applied(prepared, end)[0] - applied(prepared, begin)[0] + prepared.pushed(end.given - begin.given)
+    return change
 
 
 def standing(prepared: Prepared, state: State) -> tuple[BoolArray, BoolArray, float]:

@@ -109,7 +109,7 @@ def advance(
     if not answer.solved:
         raise _failure(prepared, answer, where)
     new = _recovered(prepared, increment, answer, point)
-    sizes = (new.displacement, increment.imposed, state.displacement, point.gap)
+    sizes = (new.nodal[0], increment.imposed, state.nodal[0], point.gap)
     farthest = max(float(np.abs(size).max(initial=0.0)) for size in sizes)
     origin = None if len(prepared.flowed) else state.plastic
     certificate = measured(prepared, new, state.tangential, origin)
@@ -133,7 +133,7 @@ def glimpse(prepared: Prepared, state: State, point: LoadPoint, where: str) -> A
     except SolveFailed:
         return None
     answer = prepared.solver.solve(increment)
-    return prepared.constraints.transform @ answer.free + increment.imposed if answer.solved else None
+    return prepared.constraints.displaced(answer.free) + increment.imposed if answer.solved else None
 
 
 def _asked(
@@ -168,7 +168,7 @@ def _recovered(prepared: Prepared, increment: Increment, answer: IncrementAnswer
     constraints, interface, n = prepared.constraints, prepared.interface, len(prepared.interface)
     active, (loads, imposed) = prepared.solver.active, applied(prepared, point)
     with prepared.clock.phase("recovery"):
-        displacement = constraints.transform @ answer.free + imposed
+        displacement = constraints.displaced(answer.free) + imposed
         moved = np.where(active, answer.moved, increment.offset + interface.motion(displacement - imposed))
         status = np.full(n, OPEN)
         status[active] = answer.status
@@ -186,7 +186,7 @@ def _recovered(prepared: Prepared, increment: Increment, answer: IncrementAnswer
             status=status,
             plastic=answer.plastic,
         )
-        return new if answer.bonds is None else replace(new, bonds=answer.bonds)
+        return new if answer.bonds is None else new.changed(bonds=answer.bonds)
 
 
 def _polished(
@@ -229,13 +229,13 @@ def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
 
     Supports that let go are loads, what others hold beyond what they prescribe is imposed, and where bodies rest.
     """
-    zero = np.zeros(prepared.space.number_of_dofs)
-    loads = sum((point.factors[name] * f for name, f in prepared.loads.items()), zero)
-    imposed = sum((point.factors[name] * u for name, u in prepared.constraints.prescribed.items()), zero)
+    zero, placed = prepared.constraints.zeros, prepared.constraints.placed
+    loads = sum((point.factors[name] * placed(f) for name, f in prepared.loads.items()), zero)
+    imposed = sum((point.factors[name] * placed(u) for name, u in prepared.constraints.prescribed.items()), zero)
     if len(prepared.resting):
         imposed = imposed + prepared.resting
     if len(point.reaction):
-        return loads + point.reaction, imposed + point.offset
+        return loads + placed(point.reaction), imposed + placed(point.offset)
     return loads, imposed
 
 
@@ -253,9 +253,9 @@ def free_load(prepared: Prepared, point: LoadPoint) -> Array:
     """(z,) Forces on the free displacements: loads, what supports impose, contacts that are being switched off."""
     loads, imposed = applied(prepared, point)
     if point.given.any():
-        loads = loads + prepared.interface.on_bodies(point.given)
+        loads = loads + prepared.pushed(point.given)
     if point.pull is not None:
-        loads = loads + prepared.interface.on_bodies(point.pull)
+        loads = loads + prepared.pushed(point.pull)
     if len(prepared.flowed):
         loads = loads + prepared.flowed
     if imposed.any():
@@ -283,11 +283,12 @@ def is_straight(prepared: Prepared, followed: FollowedPart) -> bool:
 
 def _half_way(one: State, two: State) -> State:
     """What is half-way between two states, as far as certificates look at it."""
+    displacement, external = (0.5 * (a + b) for a, b in zip(one.nodal, two.nodal, strict=True))
     return replace(
         two,
         point=one.point.towards(two.point, 0.5),
-        displacement=0.5 * (one.displacement + two.displacement),
-        external=0.5 * (one.external + two.external),
+        displacement=displacement,
+        external=external,
         forces=0.5 * (one.forces + two.forces),
         borne=None if two.borne is None else two.borne.half_way(one.borne),
         bonds=one.bonds,

@@ -66,8 +66,8 @@ def whole_instant(recovery: Recovery, history: History, number: int, instant: In
     """
     (u,) = dofs_on_the_way(recovery, history, number, [instant])
     space, constraints = recovery.examined.space, recovery.examined.constraints
-    reaction = space.at_nodes(recovery.held(instant, u) + constraints.foundation_forces(u))
-    forces = NodalForces.of(reaction, space.at_nodes(recovery.pressed(instant)))
+    reaction = recovery.held(instant, u) + constraints.foundation_forces(u)
+    forces = NodalForces.of(space, reaction, recovery.pressed(instant))
     motions = rigid_motions(history.model, space, u)
     return replace(instant, displacement=frozen(space.at_nodes(u)), nodal_forces=forces, motions=motions)
 

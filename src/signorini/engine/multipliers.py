@@ -125,10 +125,10 @@ class MultiplierSolver:
         scale = increment.system.scale
         if near is not None:
             return self.solve_near(increment, near.free, near.forces, scale.length)
-        u, r = state.displacement, state.forces
+        (u, _), r = state.nodal, state.forces
         if last is not None:
-            u, r = 2.0 * u - last.displacement, 2.0 * r - last.forces
-        return self.solve_near(increment, u[increment.system.constraints.leaders], r, scale.length)
+            u, r = 2.0 * u - last.nodal[0], 2.0 * r - last.forces
+        return self.solve_near(increment, increment.system.constraints.free_of(u), r, scale.length)
 
     def solve_near(self, increment: Increment, free: Array, forces: Array, length: float) -> IncrementAnswer:
         """Solve one increment.

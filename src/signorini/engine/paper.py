@@ -165,7 +165,7 @@ def solve_literally(formulation: PaperFormulation) -> PaperAnswer:
     status = np.full(n, OPEN)
     closed = np.where(slip[:, 0] > 0, SLIP_MINUS, np.where(slip[:, 1] > 0, SLIP_PLUS, STICK))
     status[pairs] = np.where(slip[:, 2] > 0, OPEN, closed)
-    before = initial_state(prepared.model.factors()[0], prepared.space.number_of_dofs, interface)
+    before = initial_state(prepared.model.factors()[0], prepared.constraints.zeros, interface)
     state = next_state(
         prepared,
         before,

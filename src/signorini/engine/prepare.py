@@ -358,7 +358,7 @@ def condensed_model(
         if backend == PETSC:
             from signorini.engine.solver_on_ranks import solver_on_ranks  # needs PETSc
 
-            solver = solver_on_ranks(examined, K, candidates, settings)
+            solver, data["constraints"] = solver_on_ranks(examined, K, candidates, settings)
         elif yields or known is None:
             reduced = reduced_bodies(examined, K)
     if reduced is not None and condensed is None:

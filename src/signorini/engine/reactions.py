@@ -30,8 +30,8 @@ def reactions(
     owner, d = constraints.owner, model.components
     rigid = {body.name: j for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))}
     own = np.flatnonzero(owner >= 0)
-    total, arms = np.zeros((len(model.supports), d)), space.arms
-    np.add.at(total, (owner[own], own % d), held[own] * arms[own])
+    total = np.zeros((len(model.supports), d))
+    np.add.at(total, (owner[own], own % d), held[own] * space.arms_at(own))
     forces = {}
     for i, support in enumerate(model.supports):
         forces[support.label] = frozen(total[i])
@@ -39,7 +39,7 @@ def reactions(
             dofs, size = rigid_dofs(model, space, j)
             forces[support.label] = frozen(np.where(owner[dofs] == i, held[dofs] * size, 0.0))
     for name, S in constraints.springs.items():
-        forces[name] = frozen(-(S.T @ (S @ displacement) * arms).reshape(-1, d).sum(axis=0))
+        forces[name] = frozen(-(S.T @ (S @ displacement) * space.arms).reshape(-1, d).sum(axis=0))
     return forces
 
 

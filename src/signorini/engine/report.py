@@ -67,9 +67,9 @@ def step_result(
     loads, held = _outside(prepared, followed)
     model = prepared.model
     bolts = {bolt.label for bolt in model.bolts}
-    space, u = prepared.space, state.displacement
+    space, (u, external) = prepared.space, state.nodal
     forces = reactions(model, space, prepared.constraints, u, held)
-    springs = -0.5 * float(state.displacement @ prepared.constraints.foundation_forces(state.displacement))
+    springs = -0.5 * float(u @ prepared.constraints.foundation_forces(u))
     return StepResult(
         name=stage.title,
         path=followed.path,
@@ -78,15 +78,14 @@ def step_result(
         displacement=_kept(prepared, _displacement(prepared, state)),
         external=_kept(prepared, _external(prepared, state, loads, held)),
         obstacles={
-            obstacle.name: rigid_result(model, space, j, u, state.external)
-            for j, obstacle in enumerate(model.obstacles)
+            obstacle.name: rigid_result(model, space, j, u, external) for j, obstacle in enumerate(model.obstacles)
         },
         rigid_bodies={
             body.name: rigid_result(model, space, j, u, loads + held)
             for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))
         },
         reactions={name: force for name, force in forces.items() if name not in bolts},
-        bolts=bolt_results(model, space.at_nodes(u), state.point.factors, forces) if bolts else {},
+        bolts=bolt_results(model, space.at_nodes(state.displacement), state.point.factors, forces) if bolts else {},
         strain_energy=stored - layers - springs - state.closing_work + heat(state),
         interface_energy=layers + springs,
         work=state.work - before.work + heat(state) - heat(before),
@@ -102,9 +101,13 @@ def step_result(
     )
 
 
-def _kept(prepared: Prepared, values: Array) -> Array:
-    """Results at all nodes, read-only; bodies on ranks have them there."""
-    values = frozen(values)
+def _kept(prepared: Prepared, values: Any) -> Array:
+    """(nodes, d) Results at the nodes of all dofs (dofs,), read-only; bodies on ranks have them there."""
+    if not isinstance(values, np.ndarray):
+        space = prepared.space
+        found: Array = put_away(values, (space.dofs_of_nodes // space.components, space.components))
+        return found
+    values = frozen(prepared.space.at_nodes(values))
     return put_away(values) if on_ranks(prepared.K) else values
 
 
@@ -124,13 +127,13 @@ def _outside(prepared: Prepared, followed: FollowedPart) -> tuple[Array, Array]:
     if prepared.turns:
         return forces_in_space(prepared, state, followed.turned_at)
     loads, _ = applied(prepared, state.point)
-    return loads, prepared.constraints.support_forces(state.external - loads)
+    return loads, prepared.constraints.support_forces(state.nodal[1] - loads)
 
 
 def _displacement(prepared: Prepared, state: State) -> Array:
-    """(nodes, d) Displacement in space, of bodies that turn, too."""
-    u = state.displacement
-    return prepared.space.at_nodes(prepared.frames.displaced(u) if prepared.turns else u)
+    """(dofs,) Displacement in space, of bodies that turn, too."""
+    u: Array = state.nodal[0]
+    return prepared.frames.displaced(u) if prepared.turns else u
 
 
 def _yielding(prepared: Prepared, followed: FollowedPart, begin: float) -> Yielding | None:
@@ -169,20 +172,21 @@ def _plastic(before: State, state: State, *, whole: bool) -> PlasticResult | Non
 
 
 def _external(prepared: Prepared, state: State, loads: Array, held: Array) -> Array:
-    """(nodes, d) Loads and reactions; those of a rigid body at its node of no cell, if one is at its point."""
+    """(dofs,) Loads and reactions; those of a rigid body at its node of no cell, if one is at its point."""
     model, constraints = prepared.model, prepared.constraints
+    external: Array = state.nodal[1]
     if not len(constraints.dependent):
         if not prepared.turns:
-            return prepared.space.at_nodes(state.external)
-        force = np.where(constraints.held, state.external, prepared.frames.in_space(state.external, state.displacement))
-        return prepared.space.at_nodes(np.where(constraints.alone, loads, force))
-    force = np.where(constraints.alone | (constraints.free >= 0), loads, loads + held)
-    at_nodes = prepared.space.at_nodes(force).copy()
+            return external
+        force = np.where(constraints.held, external, prepared.frames.in_space(external, state.displacement))
+        return np.where(constraints.alone, loads, force)
+    force = np.array(np.where(constraints.alone | (constraints.free >= 0), loads, loads + held))
+    at_nodes = prepared.space.at_nodes(force)
     loose = prepared.space.loose_nodes
     for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles)):
         here = loose[(model.mesh.points[loose] == np.array(body.point)).all(axis=1)]
         at_nodes[here[:1], : model.dimension] += force[rigid_dofs(model, prepared.space, j)[0][: model.dimension]]
-    return at_nodes
+    return force
 
 
 def contacts_of(prepared: Prepared, before: State, state: State) -> tuple[ContactResult, ...]:
@@ -212,7 +216,7 @@ def instant_of(prepared: Prepared, state: State) -> Instant:
         plastic=_plastic(state, state, whole=True),
         places=frozen(prepared.space.mesh.points) if prepared.meshed is not None else None,
         nodal_forces=_nodal_forces(prepared, state),
-        motions=rigid_motions(prepared.model, prepared.space, state.displacement),
+        motions=rigid_motions(prepared.model, prepared.space, state.nodal[0]),
     )
 
 
@@ -220,10 +224,10 @@ def _nodal_forces(prepared: Prepared, state: State) -> NodalForces | None:
     """Forces of supports and contacts at the nodes in a state whose displacements are known."""
     if prepared.turns:
         return None
-    space, constraints = prepared.space, prepared.constraints
+    space, constraints, (u, external) = prepared.space, prepared.constraints, state.nodal
     loads, _ = applied(prepared, state.point)
-    held = constraints.support_forces(state.external - loads) + constraints.foundation_forces(state.displacement)
-    return NodalForces.of(space.at_nodes(held), space.at_nodes(prepared.interface.on_bodies(state.forces)))
+    held = constraints.support_forces(external - loads) + constraints.foundation_forces(u)
+    return NodalForces.of(space, held, prepared.pushed(state.forces))
 
 
 def _instants(
@@ -270,9 +274,7 @@ def _instants(
             nodal_forces=_nodal_forces(now, followed.after if snapshot is end else snapshot.state)
             if snapshot is end or snapshot.kept
             else None,
-            motions=rigid_motions(prepared.model, prepared.space, snapshot.state.displacement)
-            if snapshot.kept
-            else None,
+            motions=rigid_motions(prepared.model, prepared.space, snapshot.state.nodal[0]) if snapshot.kept else None,
         )
         if cycle + 1 < len(cycle_ends) and snapshot.load_factor == cycle_ends[cycle]:
             low, high, cycle = slip, slip, cycle + 1

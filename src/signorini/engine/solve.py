@@ -145,7 +145,7 @@ def _first(prepared: Prepared) -> Checkpoint:
     """Where a history begins: nothing has moved, and nothing is changed of contacts; supports may come later."""
     model, interface = prepared.model, prepared.interface
     zero = dict.fromkeys(model.scaled_names, 0.0)
-    state = initial_state(zero, prepared.space.number_of_dofs, interface)
+    state = initial_state(zero, prepared.constraints.zeros, interface)
     if prepared.yielding is not None:
         state = replace(state, plastic=prepared.yielding.untouched())
     if prepared.wearing is not None:

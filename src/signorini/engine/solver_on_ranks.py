@@ -8,6 +8,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import BoolArray, among
 from signorini.distributed.bodies import RowsOnRanks, make_bodies_on_ranks
+from signorini.distributed.constraints import ConstraintsOnRanks
 from signorini.distributed.direct import MatrixOnRanks
 from signorini.distributed.ranks import MUMPS, PETSC, the_team
 from signorini.distributed.refusals import refuse_without_mumps
@@ -74,8 +75,8 @@ def stiffness_on_ranks(examined: Examined, backend: str) -> tuple[StiffnessOnRan
 
 def solver_on_ranks(
     examined: Examined, K: StiffnessOnRanks, candidates: BoolArray, settings: SolverSettings
-) -> MultiplierSolver:
-    """The method of multipliers on bodies that are on all ranks.
+) -> tuple[MultiplierSolver, ConstraintsOnRanks]:
+    """The method of multipliers on bodies that are on all ranks, and constraints by which vectors stay there.
 
     Parameters
     ----------
@@ -85,10 +86,11 @@ def solver_on_ranks(
     settings : limits of the rounds
     """
     rows = _rows(examined, K)
-    examined.space.forget_facets()
+    examined.space.forget("facets", "facets_at_boundaries", "volumes")
     B, points = sp.csr_array(examined.interface.B @ examined.constraints.transform), examined.space.mesh.points
     bodies = make_bodies_on_ranks(rows, points, B, examined.interface, candidates)
-    return MultiplierSolver(bodies=bodies, settings=settings)
+    constraints = ConstraintsOnRanks.of(examined.constraints, rows, examined.motions)
+    return MultiplierSolver(bodies=bodies, settings=settings), constraints
 
 
 def matrix_on_ranks(examined: Examined, K: StiffnessOnRanks) -> MatrixOnRanks:

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray
+from signorini.arrays import Array, ArrayElsewhere, BoolArray, stored
 from signorini.attempt import MethodRun
 from signorini.distributed.kept_rows import put_away
 from signorini.engine.prepare import Prepared
@@ -191,7 +191,8 @@ class Snapshot:
 
     def asked_for(self, last: bool) -> Snapshot:
         """As one of the results, of which ranks keep all but the last, which the history goes on from."""
-        return replace(self, kept=True, state=self.state if last else kept_by_ranks(self.state))
+        there = last or isinstance(stored(self.state, "displacement"), ArrayElsewhere)
+        return replace(self, kept=True, state=self.state if there else kept_by_ranks(self.state))
 
     def light(self, flow: bool) -> Snapshot:
         """Without the displacement of the bodies, for a history may have thousands; ``flow``: with plastic strains."""
@@ -245,7 +246,7 @@ def kept_by_ranks(state: State) -> State:
     ----------
     state : with its displacement
     """
-    return replace(state, displacement=put_away(state.displacement), external=put_away(state.external))
+    return replace(state, **{name: put_away(stored(state, name)) for name in ("displacement", "external")})
 
 
 def leg_of(part: StepPart, after: State, **way: Any) -> Leg:

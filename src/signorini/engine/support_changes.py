@@ -33,13 +33,14 @@ def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
     """
     now = prepared.constraints
     # at the end of a step nothing is left of what supports bore that it released
-    loads, imposed = applied(prepared, replace(state.point, reaction=np.zeros(0), offset=np.zeros(0)))
-    borne = before.support_forces(state.external - loads)
+    point = replace(state.point, reaction=np.zeros(0), offset=np.zeros(0))
+    loads, imposed = (np.asarray(part) for part in applied(prepared, point))
+    borne = np.asarray(before.support_forces(state.external - loads))
     reaction = np.where(before.held & ~now.held, borne, 0.0)
     other = now.held & ((now.owner != before.owner) | ~before.held)
     old = state.point.offset if len(state.point.offset) else np.zeros(len(imposed))
     offset = np.where(other, state.displacement - imposed, np.where(now.held, old, 0.0))
-    return replace(state, point=replace(state.point, reaction=reaction, offset=completed(prepared, offset)))
+    return state.changed(point=replace(state.point, reaction=reaction, offset=completed(prepared, offset)))
 
 
 def locks_bolts(model: Model, before: Standing, after: Standing) -> bool:

@@ -7,7 +7,7 @@ strain or turn far, contacts that slip far.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from scipy.sparse.csgraph import connected_components
@@ -46,7 +46,7 @@ def step_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
     yield from _facet_notes(prepared)
     yield from finer_notes(prepared)
     yield from _open_notes(prepared, followed)
-    if not before.forces.any() and not before.displacement.any():
+    if not before.forces.any() and not before.nodal[0].any():
         yield from overlap_notes(prepared)
     yield from patch_notes(prepared, state)
     yield from large_notes(prepared, state)
@@ -179,15 +179,24 @@ def _layers(facets: list[IntArray], one: IntArray, two: IntArray, closed: BoolAr
     return np.minimum(across, _PAIRS_ACROSS)
 
 
+def _surely_small(prepared: Prepared, state: State, bodies: Sequence[ConnectedBody]) -> bool:
+    """Whether no body can strain or turn that much, because no displacement is that large."""
+    if prepared.turns or prepared.model.twists:
+        return False
+    across = 2.0 * np.abs(state.nodal[0]).max(initial=0.0) * np.sqrt(prepared.model.components)
+    return bool(across <= 2.0 * _STRAINED * min((part.size for part in bodies), default=np.inf))
+
+
 def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
     """Bodies that strain or turn by a quarter of their size, contacts that slip by a tenth of theirs.
 
     Around the axis bodies of revolution turn and slip by any angle: they are the same all around.
     """
-    u = state.displacement
-    displacement = prepared.space.at_nodes(prepared.frames.elastic(u) if prepared.turns else u)
-    for part in prepared.parts:
-        if part.kind == ConnectedBody.kind:
+    bodies = [part for part in prepared.parts if part.kind == ConnectedBody.kind]
+    if not _surely_small(prepared, state, bodies):
+        u = state.displacement
+        displacement = prepared.space.at_nodes(prepared.frames.elastic(u) if prepared.turns else u)
+        for part in bodies:
             moved = displacement[part.nodes]
             if prepared.model.twists:
                 radii = prepared.space.mesh.points[part.nodes, 0]

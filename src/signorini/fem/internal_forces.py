@@ -33,7 +33,8 @@ def internal_forces(K: sp.csr_array, u: Array) -> Array:
     ([0.0], [1.0])
     """
     if not isinstance(K, sp.csr_array):  # its rows are on ranks
-        return np.asarray(K.internal_forces(u))
+        found: Array = K.internal_forces(u)
+        return found
     forces = np.zeros(K.shape[0])
     _multiply(K.indptr, K.indices, K.data, u, forces)
     return forces

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from signorini.arrays import Array, IntArray, among, extent
+from signorini.arrays import Array, IntArray, among, extent, index_type
 from signorini.dense import symmetric_eigen
 from signorini.fem.obstacles import arm
 from signorini.fem.space import Space
@@ -175,8 +175,9 @@ def rigid_motions(space: Space, parts: tuple[ConnectedBody, ...]) -> sp.csr_arra
                 rows.append(dofs)
                 columns.append(np.full(len(dofs), start[i] + kept.index(k)))
                 values.append(value)
-    shape = space.number_of_dofs, int(start[-1])
-    return of_entries(np.concatenate(values), np.concatenate(rows), np.concatenate(columns), shape)
+    narrow = index_type(space.number_of_dofs)
+    row, column = (np.concatenate(numbers, dtype=narrow, casting="same_kind") for numbers in (rows, columns))
+    return of_entries(np.concatenate(values), row, column, (space.number_of_dofs, int(start[-1])))
 
 
 def _rotation_planes(dimension: int) -> tuple[tuple[int, int], ...]:

@@ -209,15 +209,26 @@ class Space:
         named = itertools.chain.from_iterable(mesh.facets(name) for name in mesh.boundaries)
         return make_facets(mesh, among(named, len(mesh.points)))
 
-    def forget_facets(self) -> None:
-        """Let go of what is made anew where somebody asks: larger than the mesh, and of use before it is solved."""
-        self.__dict__.pop("facets", None)
+    def forget(self, *names: str) -> None:
+        """Let go of what is made anew where somebody asks: as large as the mesh, and of use before it is solved.
+
+        Parameters
+        ----------
+        names : of properties
+        """
+        for name in names:
+            self.__dict__.pop(name, None)
 
     @cached_property
     def volumes(self) -> tuple[Array, ...]:
         """Quadrature weights times ``|det dx/dX|``, (m, q) a block: area of each quadrature point."""
         points = self.mesh.points
         return tuple(np.abs(cell_determinants(points, b.cells, b.gradients)) * b.weights for b in self.blocks)
+
+    @cached_property
+    def volume(self) -> float:
+        """Of all cells."""
+        return sum(float(volumes.sum()) for volumes in self.volumes)
 
     def volumes_of(self, block: Block) -> Array:
         """Area of each quadrature point of a block, (m, q)."""
@@ -230,9 +241,14 @@ class Space:
     @property
     def arms(self) -> Array:
         """(dofs,) What forces are multiplied by in resultants: 1, with twist along the hoop the radius: a torque."""
-        arms = np.ones(self.number_of_dofs)
+        return self.arms_at(np.arange(self.number_of_dofs))
+
+    def arms_at(self, dofs: IntArray) -> Array:
+        """(k,) Those of some dofs (k,)."""
+        arms = np.ones(len(dofs))
         if self.components > self.dimension:
-            self.at_nodes(arms)[:, 2] = self.mesh.points[:, 0]
+            hoop = (dofs % self.components == 2) & (dofs < self.dofs_of_nodes)
+            arms[hoop] = self.mesh.points[dofs[hoop] // self.components, 0]
         return arms
 
     def farthest(self, displacement: Array) -> float:

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, index_type
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
@@ -50,6 +50,35 @@ class Constraints:
     nodes: IntArray
     dependent: IntArray
     shares: sp.csr_array
+
+    @property
+    def zeros(self) -> Array:
+        """(dofs,) Zeros, where vectors of all displacements are: here, or on the ranks of MPI."""
+        return np.zeros(len(self.free))
+
+    def placed(self, values: Array) -> Array:
+        """Values (dofs,), which nobody changes, where vectors of all displacements are."""
+        return values
+
+    def spread(self, dofs: IntArray, values: Array) -> Array:
+        """(dofs,) Values at some dofs (k,), each once, zero elsewhere, where vectors of all displacements are."""
+        result = self.zeros
+        result[dofs] = values
+        return result
+
+    def displaced(self, free: Array) -> Array:
+        """(dofs,) Displacements by free ones (z,) alone, ``T z``."""
+        found: Array = self.transform @ free
+        return found
+
+    def free_of(self, displacement: Array) -> Array:
+        """(z,) The free displacements in some of all dofs (dofs,)."""
+        return displacement[self.leaders]
+
+    def resultants(self, motions: sp.csr_array, forces: Array) -> Array:
+        """(k,) Work of forces (dofs,) on rigid motions (dofs, k)."""
+        found: Array = transposed(motions) @ forces
+        return found
 
     def on_free(self, forces: Array) -> Array:
         """(z,) What forces (dofs,) are on the free displacements, ``T^T f``."""
@@ -169,12 +198,13 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     if len(dependent):
         shares = shares[np.searchsorted(np.flatnonzero(follows), leader[dependent])]
         T = sp.csr_array(T + selection(dependent, total).T @ (shares @ T))
+    narrow = index_type(total)
     made = Constraints(
-        free=free,
+        free=free.astype(narrow),
         transform=T,
         prescribed={},
         springs=make_springs(space, model) if model.foundations else {},
-        owner=given.owner,
+        owner=given.owner.astype(narrow),
         nodes=unknown // space.components,
         dependent=dependent,
         shares=shares,

@@ -110,8 +110,24 @@ class Interface:
 
     def motion(self, displacement: Array) -> Array:
         """(d, n) Motions of the pairs, ``B u``, that displacements (dofs,) are, length."""
+        if not isinstance(displacement, np.ndarray):  # it is on ranks, and only what pairs see is asked for
+            seen, B = self._of_seen
+            displacement = displacement[seen]
+            return np.asarray(B @ displacement).reshape(self.directions, len(self))
         moved: Array = self.B @ displacement
         return moved.reshape(self.directions, len(self))
+
+    def pushes(self, forces: Array) -> tuple[IntArray, Array]:
+        """Dofs that pairs see (k,), each once, and the nodal forces of the forces (d, n) of the pairs there (k,)."""
+        seen, B = self._of_seen
+        return seen, B.T @ forces.ravel()
+
+    @cached_property
+    def _of_seen(self) -> tuple[IntArray, sp.csr_array]:
+        """Dofs that pairs see (k,), ascending, and B (d n, k) of those alone."""
+        seen, place = np.unique(self.B.indices, return_inverse=True)
+        entries = self.B.data.copy(), place, self.B.indptr.copy()  # B may be sorted in its place later
+        return seen, sp.csr_array(entries, shape=(self.B.shape[0], len(seen)))
 
     def on_bodies(self, forces: Array) -> Array:
         """(dofs,) Nodal forces ``B^T r`` of the forces (d, n) of the pairs on the bodies."""

@@ -17,7 +17,6 @@ from signorini.plasticity.state import PlasticState
 from signorini.short import Short
 from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.state import State
-from signorini.sparse_rows import transposed
 
 TOLERANCE = 1e-8
 """Every number of a certificate is at most this, or the answer is no solution."""
@@ -120,15 +119,15 @@ def certify(
     Certificate; every number infinite where something is not finite or a body has left
     """
     interface, constraints, scale, motions = system.interface, system.constraints, system.scale, system.motions
-    u, r = state.displacement, state.forces
+    (u, external), r = state.nodal, state.forces
     if not (np.isfinite(u).all() and np.isfinite(r).all()) or np.abs(u).max(initial=0.0) > _MAX_LENGTHS * scale.length:
         return Certificate(equilibrium=np.inf, penetration=np.inf, tension=np.inf, cone=np.inf, complementarity=np.inf)
-    of_pairs = interface.on_bodies(r)
+    of_pairs = system.pushed(r)
     applied = loads + of_pairs
     if state.plastic is not None:
         applied = applied + state.plastic.forces
     residual = constraints.on_free(system.K @ u - applied)
-    balance = transposed(motions) @ (state.external + constraints.foundation_forces(u) + of_pairs)
+    balance = constraints.resultants(motions, external + constraints.foundation_forces(u) + of_pairs)
     moved = (interface.motion(u) + interface.give(r, state.borne)) / scale.length
     gap = state.point.gap / scale.length + moved[0]
     normal, tangential = r[0] / scale.force, r[1:] / scale.force
@@ -145,7 +144,7 @@ def certify(
     gap, normal, tension, room, friction = (
         np.where(system.absent, 0.0, part) for part in (gap, normal, tension, room, friction)
     )
-    equilibrium = _largest(np.abs(np.concatenate([residual, balance]))) / scale.force
+    equilibrium = float(np.maximum(_largest(np.abs(residual)), _largest(np.abs(balance)))) / scale.force
     rounding = 0.0
     if equilibrium > TOLERANCE:
         rounding = _rounding(system.K, u, motions, scale.force)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import scipy.sparse as sp
 
-from signorini.arrays import BoolArray
+from signorini.arrays import Array, BoolArray
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.plasticity.bodies import YieldingBodies
@@ -36,3 +36,7 @@ class DiscreteModel:
     scale: Scale
     absent: BoolArray
     yielding: YieldingBodies | None = None
+
+    def pushed(self, forces: Array) -> Array:
+        """(dofs,) Nodal forces ``B^T r`` of the forces (d, n) of the pairs, where vectors of all displacements are."""
+        return self.constraints.spread(*self.interface.pushes(forces))

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import Array, IntArray, distinct, frozen
+from signorini.fem.space import Space
 from signorini.short import Short
 
 
@@ -27,10 +28,18 @@ class NodalForces(Short):
     contact: Array
 
     @classmethod
-    def of(cls, reaction: Array, contact: Array) -> NodalForces:
-        """Forces at all nodes, each (nodes, d)."""
-        node = np.flatnonzero(reaction.any(axis=1) | contact.any(axis=1))
-        return cls(node=frozen(node, np.int64), reaction=frozen(reaction[node]), contact=frozen(contact[node]))
+    def of(cls, space: Space, reaction: Array, contact: Array) -> NodalForces:
+        """Forces on all dofs of a space, wherever they are.
+
+        Parameters
+        ----------
+        space : of the bodies
+        reaction, contact : (dofs,) of supports and elastic foundations; of contacts
+        """
+        acting = np.concatenate([np.flatnonzero(forces) for forces in (reaction, contact)])
+        node = distinct(acting[acting < space.dofs_of_nodes] // space.components)
+        dofs = space.dofs(node)
+        return cls(node=frozen(node, np.int64), reaction=frozen(reaction[dofs]), contact=frozen(contact[dofs]))
 
     def at_all(self, count: int) -> tuple[Array, Array]:
         """Reactions and forces of contacts at all of ``count`` nodes, each (nodes, d)."""

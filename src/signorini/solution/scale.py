@@ -129,7 +129,7 @@ def data_scale(space: Space, model: Model, loading: Loading, interface: Interfac
 def _across(space: Space, model: Model) -> list[float]:
     """What stands for the thickness of every body, length."""
     if model.dimension == 3:
-        return [math.cbrt(sum(float(volumes.sum()) for volumes in space.volumes))] * len(model.bodies)
+        return [math.cbrt(space.volume)] * len(model.bodies)
     if model.axisymmetric:
         return [0.5 * float(model.mesh.points[:, 0].max())] * len(model.bodies)
     return model.thicknesses

@@ -6,10 +6,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, elsewhere
+from signorini.arrays import Array, IntArray, elsewhere, operand
 from signorini.interface.interface import Interface
 from signorini.law.closure import Borne
 from signorini.law.cohesion import Bonds
@@ -101,8 +102,18 @@ class State(Short):
     bonds: Bonds | None = None
 
     def at_hand(self) -> State:
-        """This state, with what ranks keep of it here: a history goes on from it."""
-        return replace(self)
+        """This state with what ranks keep of it here, where they do not compute with it: a history goes on from it."""
+        return self.changed()
+
+    @property
+    def nodal(self) -> tuple[Any, Any]:
+        """(dofs,) Displacement and external forces to be computed with, on ranks where they are there."""
+        return operand(self, "displacement"), operand(self, "external")
+
+    def changed(self, **data: Any) -> State:
+        """With other data; arrays that ranks have stay there."""
+        displacement, external = self.nodal
+        return replace(self, **{"displacement": displacement, "external": external} | data)
 
     @property
     def motion(self) -> Array:
@@ -129,21 +140,21 @@ class State(Short):
         return 0.0 if self.plastic is None else self.plastic.dissipation
 
 
-def initial_state(factors: Mapping[str, float], dofs: int, interface: Interface) -> State:
+def initial_state(factors: Mapping[str, float], zeros: Array, interface: Interface) -> State:
     """Nothing has moved, and overlaps have not pressed yet.
 
     Parameters
     ----------
     factors : load factors by name
-    dofs : number of displacements
+    zeros : (dofs,) zeros, see `Constraints.zeros`
     interface : the n pairs
     """
     n, d, gap = len(interface), interface.directions, interface.gap
     still = np.zeros((d - 1, n))
     return State(
         point=LoadPoint(factors=MappingProxyType(dict(factors)), gap=gap, given=np.zeros((d, n))),
-        displacement=np.zeros(dofs),
-        external=np.zeros(dofs),
+        displacement=zeros,
+        external=zeros,
         forces=np.zeros((d, n)),
         gap=gap,
         tangential=still,
@@ -185,22 +196,22 @@ def next_state(
     -----
     Work is trapezoidal in time, that of interferences included; dissipation is that of the forces at the end.
     """
-    interface = system.interface
+    interface, (last, pressed) = system.interface, state.nodal
     plastic = state.plastic if plastic is None else plastic
-    inner = system.K @ displacement - interface.on_bodies(forces)
+    inner = system.K @ displacement - system.pushed(forces)
     if plastic is not None:
         inner -= plastic.forces
     # the loads where a displacement is free on its own, whatever equilibrium takes where it is held, tied or linked
     external = np.where(system.constraints.alone, loads, inner)
     increment, parted = moved[1:], status == OPEN
-    work = 0.5 * (state.external + external) @ (displacement - state.displacement)
+    work = 0.5 * (pressed + external) @ (displacement - last)
     work -= 0.5 * (state.forces + forces)[0] @ (point.gap - state.point.gap)
     bodies = system.yielding
     if bodies is not None and bodies.heat_works and state.plastic is not None and plastic is not None:
         heat = bodies.heat(state.point.factors), bodies.heat(point.factors)
         work += heat_work(bodies, (state.plastic, heat[0]), (plastic, heat[1]))
     spent = (forces[1:] * increment).sum(axis=0)
-    taken = 0.5 * np.vdot(state.point.given + point.given, interface.motion(displacement - state.displacement))
+    taken = 0.5 * np.vdot(state.point.given + point.given, interface.motion(displacement - last))
     return State(
         point=point,
         displacement=displacement,

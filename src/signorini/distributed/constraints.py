@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Supports and free displacements of bodies on ranks: vectors of all displacements stay there, an own share on each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+import scipy.sparse as sp
+
+from signorini.arrays import Array, IntArray, distinct
+from signorini.distributed.bodies import RowsOnRanks
+from signorini.distributed.multigrid import matrix
+from signorini.distributed.rank_arrays import ArrayOnRanks, Cut, Remembered
+from signorini.distributed.ranks import Team
+from signorini.fem.supports import Constraints
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ConstraintsOnRanks(Constraints):
+    """Constraints by which vectors of all displacements are on the ranks, and are computed with there.
+
+    What is asked of an array that is here is answered here, as by `Constraints`.
+
+    Attributes
+    ----------
+    rows : the bodies
+    moved : what every rank knows of its share
+    remembered : loads, and what supports prescribe, as ranks have them
+    """
+
+    rows: RowsOnRanks
+    moved: MotionsHeld
+    remembered: Remembered
+
+    @staticmethod
+    def of(constraints: Constraints, rows: RowsOnRanks, motions: sp.csr_array) -> ConstraintsOnRanks:
+        """Of bodies whose rows are on the ranks.
+
+        Parameters
+        ----------
+        constraints, rows : what supports hold, and the bodies under them
+        motions : (dofs, k) rigid motions of all parts
+        """
+        given = {field.name: getattr(constraints, field.name) for field in fields(Constraints)}
+        held = MotionsHeld(rows, constraints, motions)
+        return ConstraintsOnRanks(**given, rows=rows, moved=held, remembered=Remembered())
+
+    @property
+    def zeros(self) -> Any:
+        """(dofs,) Zeros, on the ranks."""
+        return self.spread(np.zeros(0, np.int64), np.zeros(0))
+
+    def placed(self, values: Any) -> Any:
+        """Values (dofs,), which nobody changes, on the ranks."""
+        return self.remembered.of(self.rows.stiffness.vectors, values)
+
+    def spread(self, dofs: IntArray, values: Array) -> Any:
+        """(dofs,) Values at some dofs (k,), zero elsewhere, on the ranks."""
+        return self.rows.stiffness.vectors.spread(dofs, values)
+
+    @cached_property
+    def alone(self) -> Any:
+        """(dofs,) Free displacements that no other dof follows, on the ranks."""
+        return self.rows.stiffness.vectors.of(super().alone)
+
+    def displaced(self, free: Any) -> Any:
+        """(dofs,) Displacements by free ones (z,) alone."""
+        if not isinstance(free, ArrayOnRanks):
+            return super().displaced(free)
+        return self.rows.stiffness.vectors.made(_displaced, self.rows.unknowns.of(free), self.moved.number)
+
+    def on_free(self, forces: Any) -> Any:
+        """(z,) What forces (dofs,) are on the free displacements."""
+        if not isinstance(forces, ArrayOnRanks):
+            return super().on_free(forces)
+        return self.rows.unknowns.made(_on_free, self.rows.stiffness.vectors.of(forces), self.moved.number)
+
+    def free_of(self, displacement: Any) -> Any:
+        """(z,) The free displacements in some of all dofs (dofs,)."""
+        if not isinstance(displacement, ArrayOnRanks):
+            return super().free_of(displacement)
+        return self.rows.unknowns.made(_free_of, self.rows.stiffness.vectors.of(displacement), self.moved.number)
+
+    def resultants(self, motions: sp.csr_array, forces: Any) -> Array:
+        """(k,) Work of forces (dofs,) on rigid motions (dofs, k)."""
+        if not isinstance(forces, ArrayOnRanks) or motions is not self.moved.motions:
+            return super().resultants(motions, forces)
+        given = self.rows.stiffness.vectors.of(forces)
+        return np.asarray(sum(self.rows.team.everywhere(_resultants, given.number, self.moved.number)))
+
+    def handed_on(self, forces: Any) -> Any:
+        """Forces on all dofs (dofs,), those on dependent ones given to the dofs that they follow from."""
+        return super().handed_on(np.asarray(forces) if len(self.dependent) else forces)
+
+    def foundation_forces(self, displacement: Any) -> Any:
+        """Forces of all elastic foundations on the bodies, (dofs,)."""
+        if not isinstance(displacement, ArrayOnRanks):
+            return super().foundation_forces(displacement)
+        seen = distinct(np.concatenate([np.zeros(0, np.int64), *(S.indices for S in self.springs.values())]))
+        near = displacement[seen]
+        springs = [S[:, seen] for S in self.springs.values()]
+        return self.spread(seen, sum((-(S.T @ (S @ near)) for S in springs), np.zeros(len(seen))))
+
+
+class MotionsHeld:
+    """What ranks know of how their own displacements follow from the free ones, until nobody asks for it.
+
+    Attributes
+    ----------
+    number : under which they hold it
+    motions : (dofs, k) rigid motions of all parts
+
+    Parameters
+    ----------
+    rows, constraints, motions : as of `ConstraintsOnRanks.of`
+    """
+
+    def __init__(self, rows: RowsOnRanks, constraints: Constraints, motions: sp.csr_array) -> None:
+        self.number, self.motions = rows.team.kept(self), motions
+        cuts = rows.stiffness.vectors, rows.unknowns
+        pieces = _own_motions(rows, cuts, constraints, motions)
+        rows.team.everywhere(_hold, rows.number, self.number, pieces=pieces)
+
+
+class _OwnMotions(NamedTuple):
+    """Rows of the displacements of one rank.
+
+    Attributes
+    ----------
+    transform : (own, unknowns) from the free displacements, in the order of the ranks
+    leaders : (own free,) which of its own displacements its free ones are
+    motions : (own, k) rigid motions
+    """
+
+    transform: sp.csr_array
+    leaders: IntArray
+    motions: sp.csr_array
+
+
+def _own_motions(
+    rows: RowsOnRanks, cuts: tuple[Cut, Cut], constraints: Constraints, motions: sp.csr_array
+) -> Iterator[_OwnMotions]:
+    """Of every rank; ``cuts`` are those of all displacements and of the free ones."""
+    d = rows.blocks.size
+    leaders = d * constraints.nodes + constraints.leaders % d
+    for own, free in zip(*(cut.entries() for cut in cuts), strict=True):
+        yield _OwnMotions(
+            transform=rows.blocks.columns(sp.csr_array(constraints.transform[own])),
+            leaders=np.searchsorted(own, leaders[free]).astype(np.int32),
+            motions=sp.csr_array(motions[own]),
+        )
+
+
+class _MotionsThere:
+    """Rows of the displacements of a rank, in PETSc.
+
+    Parameters
+    ----------
+    team, own : the ranks and the rows of this one
+    bodies : under which number bodies are held
+    """
+
+    def __init__(self, team: Team, own: _OwnMotions, bodies: int) -> None:
+        self.bodies, self.leaders, self.motions = team.held[bodies], own.leaders, own.motions
+        self.transform = matrix(team, own.transform, self.bodies.K.getLocalSize()[1])
+        self.z, self.u = self.transform.createVecs()
+
+
+def _hold(team: Team, own: _OwnMotions, bodies: int, number: int) -> None:
+    team.held[number] = _MotionsThere(team, own, bodies)
+
+
+def _displaced(team: Team, free: Array, number: int) -> Array:
+    there: _MotionsThere = team.held[number]
+    there.z.array[:] = there.bodies.padded(free)
+    there.transform.mult(there.z, there.u)
+    return np.array(there.u.array)
+
+
+def _on_free(team: Team, forces: Array, number: int) -> Array:
+    there: _MotionsThere = team.held[number]
+    there.u.array[:] = forces
+    there.transform.multTranspose(there.u, there.z)
+    return np.array(there.z.array[there.bodies.at])
+
+
+def _free_of(team: Team, displacement: Array, number: int) -> Array:
+    found: Array = displacement[team.held[number].leaders]
+    return found
+
+
+def _resultants(team: Team, forces: int, number: int) -> Array:
+    return np.asarray(team.held[number].motions.T @ team.held[forces])
