@@ -30,6 +30,7 @@ from signorini.distributed.multigrid import matrix, set_options
 from signorini.distributed.parts import OwnBodies
 from signorini.distributed.ranks import Team
 from signorini.distributed.room import Room, room_for
+from signorini.linalg._dense_tiles import mirror
 
 _OPTIONS = {
     "mat_mumps_icntl_7": 5,  # the order of elimination is METIS's, or minimum degree where MUMPS has no METIS
@@ -43,7 +44,6 @@ _MEGABYTES = 15  # number in INFO: what a rank will take, which is known before 
 _DISCARDED = "mat_mumps_icntl_31"  # whether factors are dropped as they are made, for their Schur complement alone
 _WIDE = 4  # entries of the interface to one of the bodies from which these are factorised twice
 _DENSE = 4.0  # matrices of the size of the interface that the first rank holds at once, as one process does
-_TILE = 256  # rows and columns that are mirrored at once
 _INFORMATION = 64  # numbers that have room for what PETSc says to a factorisation, of which MUMPS hears nothing
 
 
@@ -193,7 +193,7 @@ class _Elimination:
         found, status = ctypes.c_void_p(), ctypes.c_int()
         _petsc("MatFactorGetSchurComplement", self.matrix, ctypes.byref(found), ctypes.byref(status))
         S = np.asarray(_Entries(found.value, count))
-        _mirror(S)
+        mirror(S.T, 0, len(S))  # it comes with its upper triangle
         _petsc("MatFactorRestoreSchurComplement", self.matrix, ctypes.byref(found), status)
         return S
 
@@ -220,15 +220,6 @@ class _Entries:
         _petsc("MatDenseRestoreArray", own, ctypes.byref(entries))
         weakref.finalize(self, _petsc, "MatDestroy", ctypes.byref(own)).atexit = False  # PETSc has ended by then
         self.__array_interface__ = {"data": (data, False), "shape": (count, count), "typestr": "<f8", "version": 3}
-
-
-def _mirror(S: Array) -> None:
-    """Overwrite the lower triangle by the upper one."""
-    for first in range(0, len(S), _TILE):
-        behind = first + _TILE
-        S[behind:, first:behind] = S[first:behind, behind:].T
-        block = S[first:behind, first:behind]
-        block[:] = np.triu(block) + np.triu(block, 1).T
 
 
 def _inside(team: Team, bodies: OwnBodies, asked: AskedOfFactors) -> Any:

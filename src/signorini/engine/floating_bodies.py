@@ -194,7 +194,7 @@ def resting(part: StepPart) -> StepPart:
     moved = np.asarray(prepared.interface.felt(prepared.motions) @ prepared.floating)
     loose = unfelt(moved[prepared.interface.rows(touches)])
     change = change_of_loads(part)
-    work = prepared.floating.T @ (transposed(prepared.motions) @ change)
+    work = prepared.floating.T @ prepared.constraints.resultants(prepared.motions, change)
     if not loose.shape[1] or np.abs(loose.T @ work).max() > DRIVES * float(np.abs(change).sum()):
         return part
     seen = np.abs(moved @ loose).max(axis=1) > _FEELS * float(np.abs(moved).max())

@@ -104,6 +104,17 @@ class StoredMatrix(NamedTuple):
 
 
 @part()
+def block_at(A: StoredMatrix, row: int, column: int) -> StoredMatrix:
+    """What of a matrix is from a row and a column on.
+
+    Parameters
+    ----------
+    A, row, column : the matrix, and where the block begins
+    """
+    return StoredMatrix(A.begin + 8 * (row + column * A.stride), A.stride)
+
+
+@part()
 def potrf(k: int, A: StoredMatrix, s: Scratch) -> int:
     """Overwrite the lower triangle of A, (k, k), by its Cholesky factor; 0, or the 1-based column of a pivot <= 0.
 
@@ -142,26 +153,25 @@ def trsm(side: int, op: int, m: int, n: int, L: StoredMatrix, B: StoredMatrix, s
     m, n, L, B : sizes and matrices
     s : of the caller
     """
-    s.size[0], s.size[1], s.size[2], s.size[3] = m, n, L.stride, B.stride
-    z = s.sizes
-    _dtrsm(side, s.left, op, s.plain, z, z + 4, s.one, L.begin, z + 8, B.begin, z + 12)
+    trsm_of(side, s.left, op, s.plain, m, n, L, B, s)
 
 
 @part()
 def trsm_of(
-    triangle: int, op: int, diagonal: int, m: int, n: int, T: StoredMatrix, B: StoredMatrix, s: Scratch
+    side: int, triangle: int, op: int, diagonal: int, m: int, n: int, T: StoredMatrix, B: StoredMatrix, s: Scratch
 ) -> None:
-    """Overwrite B, (m, n), by ``op(T)^-1 B`` of any triangle.
+    """Overwrite B, (m, n), by ``op(T)^-1 B``, or ``B op(T)^-1`` from the right, of any triangle.
 
     Parameters
     ----------
-    triangle, op, diagonal : of T, words of `s`: ``left`` for a lower one, ``upper``; ``upper`` for ones on the diagonal
+    side, op : of T, words of `s`
+    triangle, diagonal : ``left`` of `s` for a lower one, or ``upper``; ``upper`` for ones on the diagonal, or ``plain``
     m, n, T, B : sizes and matrices
     s : of the caller
     """
     s.size[0], s.size[1], s.size[2], s.size[3] = m, n, T.stride, B.stride
     z = s.sizes
-    _dtrsm(s.left, triangle, op, diagonal, z, z + 4, s.one, T.begin, z + 8, B.begin, z + 12)
+    _dtrsm(side, triangle, op, diagonal, z, z + 4, s.one, T.begin, z + 8, B.begin, z + 12)
 
 
 @part()

@@ -5,8 +5,18 @@ from __future__ import annotations
 
 from signorini.arrays import Array
 from signorini.compilation import kernel
-from signorini.linalg._blas import AS_STORED, FIRST_TRANSPOSED, Scratch, StoredMatrix, gemm, getrf, laswp, potri
-from signorini.linalg._strips import divide_by_lower, solve_lower, solve_upper
+from signorini.linalg._blas import (
+    AS_STORED,
+    FIRST_TRANSPOSED,
+    Scratch,
+    StoredMatrix,
+    block_at,
+    gemm,
+    getrf,
+    laswp,
+    potri,
+)
+from signorini.linalg._strips import divide_by_lower, solve_unit_lower, solve_upper
 
 _TILE = 64  # rows and columns that are mirrored at a time, so that they stay in the cache
 
@@ -21,7 +31,7 @@ def invert_alone(first: int, end: int, matrix: StoredMatrix, s: Scratch) -> None
     matrix : L
     s : of the thread
     """
-    potri(end - first, StoredMatrix(matrix.begin + 8 * first * (matrix.stride + 1), matrix.stride), s)
+    potri(end - first, block_at(matrix, first, first), s)
 
 
 @kernel(nogil=True)
@@ -35,9 +45,7 @@ def divide_rows(first: int, middle: int, rows: tuple[int, int], matrix: StoredMa
     matrix : L
     s : of the thread
     """
-    corner = StoredMatrix(matrix.begin + 8 * first * (matrix.stride + 1), matrix.stride)
-    own = StoredMatrix(matrix.begin + 8 * (rows[0] + first * matrix.stride), matrix.stride)
-    divide_by_lower(rows[1], middle - first, corner, own, s)
+    divide_by_lower(rows[1], middle - first, block_at(matrix, first, first), block_at(matrix, rows[0], first), s)
 
 
 @kernel(nogil=True)
@@ -57,39 +65,23 @@ def mirror(matrix: Array, first: int, end: int) -> None:
 
 
 @kernel(nogil=True)
-def multiply_columns(
+def invert_columns(
     middle: int, end: int, columns: tuple[int, int], matrix: StoredMatrix, across: StoredMatrix, s: Scratch
 ) -> None:
-    """Columns of ``- S Y``, S the square behind a middle, on both sides of its diagonal, Y what is left of it.
+    """Columns ``X = - S Y`` of an inverse, below a middle, and before it ``- Y' X``, added from the diagonal down.
 
     Parameters
     ----------
-    middle, end : of the square
-    columns : of Y, the first, and how many
-    matrix : that has both
-    across : (end - middle, columns) overwritten
+    middle, end : of the inverse S behind the middle, on both sides of its diagonal
+    columns : before the middle, the first, and how many
+    matrix : has S, below the middle Y, and before it what is added to
+    across : (end - middle, columns) takes X: other columns still need Y
     s : of the thread
     """
-    square = StoredMatrix(matrix.begin + 8 * middle * (matrix.stride + 1), matrix.stride)
-    own = StoredMatrix(matrix.begin + 8 * (middle + columns[0] * matrix.stride), matrix.stride)
-    gemm(AS_STORED, end - middle, columns[1], end - middle, square, own, s.zero, across, s)
-
-
-@kernel(nogil=True)
-def add_across(
-    middle: int, end: int, columns: tuple[int, int], matrix: StoredMatrix, across: StoredMatrix, s: Scratch
-) -> None:
-    """Take ``Y' X`` from columns before a middle, from the diagonal down.
-
-    Parameters
-    ----------
-    middle, end, columns, matrix : as of `multiply_columns`
-    across : (end - middle, columns) X
-    s : of the thread
-    """
-    own = StoredMatrix(matrix.begin + 8 * (middle + columns[0] * matrix.stride), matrix.stride)
-    corner = StoredMatrix(matrix.begin + 8 * columns[0] * (matrix.stride + 1), matrix.stride)
-    gemm(FIRST_TRANSPOSED, middle - columns[0], columns[1], end - middle, own, across, s.one, corner, s)
+    (first, width), size = columns, end - middle
+    own = block_at(matrix, middle, first)
+    gemm(AS_STORED, size, width, size, block_at(matrix, middle, middle), own, s.zero, across, s)
+    gemm(FIRST_TRANSPOSED, middle - first, width, size, own, across, s.one, block_at(matrix, first, first), s)
 
 
 @kernel(nogil=True)
@@ -103,8 +95,7 @@ def factorise_panel(first: int, width: int, n: int, matrix: StoredMatrix, pivots
     pivots : address of those of these columns, see `getrf`
     s : of the thread
     """
-    panel = StoredMatrix(matrix.begin + 8 * first * (matrix.stride + 1), matrix.stride)
-    return getrf(n - first, width, panel, pivots, s)
+    return getrf(n - first, width, block_at(matrix, first, first), pivots, s)
 
 
 @kernel(nogil=True)
@@ -117,13 +108,7 @@ def swap_rows(first: int, width: int, columns: tuple[int, int], matrix: StoredMa
     columns : the first of the others, and how many
     matrix, pivots, s : as of `factorise_panel`
     """
-    laswp(
-        columns[1],
-        StoredMatrix(matrix.begin + 8 * (columns[0] * matrix.stride + first), matrix.stride),
-        width,
-        pivots,
-        s,
-    )
+    laswp(columns[1], block_at(matrix, first, columns[0]), width, pivots, s)
 
 
 @kernel(nogil=True)
@@ -137,14 +122,11 @@ def eliminate_panel(
     first, width, columns, n, matrix, pivots, s : as of `swap_rows` and `factorise_panel`
     """
     swap_rows(first, width, columns, matrix, pivots, s)
-    panel = StoredMatrix(matrix.begin + 8 * first * (matrix.stride + 1), matrix.stride)
-    across = StoredMatrix(matrix.begin + 8 * (columns[0] * matrix.stride + first), matrix.stride)
-    solve_lower(width, columns[1], panel, s.upper, across, s)
-    left = n - first - width
-    if left > 0:
-        below = StoredMatrix(panel.begin + 8 * width, matrix.stride)
-        rest = StoredMatrix(across.begin + 8 * width, matrix.stride)
-        gemm(AS_STORED, left, columns[1], width, below, across, s.one, rest, s)
+    across, behind = block_at(matrix, first, columns[0]), first + width
+    solve_unit_lower(width, columns[1], block_at(matrix, first, first), across, s)
+    if behind < n:
+        below, rest = block_at(matrix, behind, first), block_at(matrix, behind, columns[0])
+        gemm(AS_STORED, n - behind, columns[1], width, below, across, s.one, rest, s)
 
 
 @kernel(nogil=True)
@@ -158,6 +140,5 @@ def invert_factored_columns(first: int, width: int, n: int, lu: StoredMatrix, x:
     x : (n, width)
     s : of the thread
     """
-    own = StoredMatrix(lu.begin + 8 * first * (lu.stride + 1), lu.stride)
-    solve_lower(n - first, width, own, s.upper, StoredMatrix(x.begin + 8 * first, x.stride), s)
+    solve_unit_lower(n - first, width, block_at(lu, first, first), block_at(x, first, 0), s)
     solve_upper(n, width, lu, x, s)

@@ -105,7 +105,7 @@ def eliminate_tile(columns: tuple[int, int], rows: tuple[int, int], front: Store
         beside = StoredMatrix(front.begin + 8 * first, front.stride)
         gemm(SECOND_TRANSPOSED, height, width, first, done, beside, s.one, own, s)
     if begin == first:
-        return eliminate(width, width, pivot, s)
+        return eliminate(width, pivot, s)
     eliminate_beside(height, width, pivot, own, s)
     return 0
 

@@ -13,6 +13,7 @@ from signorini.linalg._blas import (
     SECOND_TRANSPOSED,
     Scratch,
     StoredMatrix,
+    block_at,
     gemm,
     potrf,
     trsm,
@@ -24,34 +25,31 @@ _ROWS, _BLOCK = 64, 256  # of a strip along the columns of what is solved for, a
 
 
 @part()
-def eliminate(k: int, m: int, A: StoredMatrix, s: Scratch) -> int:
-    """Overwrite k columns, of m rows, by those of the Cholesky factor; 0, or the 1-based column of a pivot <= 0.
-
-    A few columns at a time: their triangles are slow, what is taken from them before is a product, which is fast.
+def eliminate(k: int, A: StoredMatrix, s: Scratch) -> int:
+    """Overwrite the lower triangle of A, (k, k), by its Cholesky factor; 0, or the 1-based column of a pivot <= 0.
 
     Parameters
     ----------
-    k, m, A : the columns, symmetric as far as the diagonal goes, the lower triangle
+    k, A : the matrix and its size
     s : of the caller
     """
     for first in range(0, k, _STRIP):
-        width, behind = min(_STRIP, k - first), first + min(_STRIP, k - first)
-        own = StoredMatrix(A.begin + 8 * first * (A.stride + 1), A.stride)
+        width = min(_STRIP, k - first)
+        own, behind = block_at(A, first, first), first + width
         if first > 0:
-            done = StoredMatrix(A.begin + 8 * first, A.stride)
-            gemm(SECOND_TRANSPOSED, m - first, width, first, done, done, s.one, own, s)
+            done = block_at(A, first, 0)
+            gemm(SECOND_TRANSPOSED, k - first, width, first, done, done, s.one, own, s)
         failed = potrf(width, own, s)
         if failed != 0:
             return first + failed
-        if m > behind:
-            below = StoredMatrix(own.begin + 8 * width, A.stride)
-            trsm(s.right, s.transposed, m - behind, width, own, below, s)
+        if k > behind:
+            trsm(s.right, s.transposed, k - behind, width, own, block_at(A, behind, first), s)
     return 0
 
 
 @part()
 def eliminate_beside(m: int, k: int, L: StoredMatrix, A: StoredMatrix, s: Scratch) -> None:
-    """Overwrite A, (m, k), by ``A L^-T``, L lower triangular, a few columns at a time.
+    """Overwrite A, (m, k), by ``A L^-T``, L lower triangular.
 
     Parameters
     ----------
@@ -59,41 +57,36 @@ def eliminate_beside(m: int, k: int, L: StoredMatrix, A: StoredMatrix, s: Scratc
     s : of the caller
     """
     for first in range(0, k, _STRIP):
-        width = min(_STRIP, k - first)
-        own = StoredMatrix(A.begin + 8 * first * A.stride, A.stride)
+        width, own = min(_STRIP, k - first), block_at(A, 0, first)
         if first > 0:
-            gemm(SECOND_TRANSPOSED, m, width, first, A, StoredMatrix(L.begin + 8 * first, L.stride), s.one, own, s)
-        trsm(s.right, s.transposed, m, width, StoredMatrix(L.begin + 8 * first * (L.stride + 1), L.stride), own, s)
+            gemm(SECOND_TRANSPOSED, m, width, first, A, block_at(L, first, 0), s.one, own, s)
+        trsm(s.right, s.transposed, m, width, block_at(L, first, first), own, s)
 
 
 @part()
-def solve_lower(m: int, n: int, L: StoredMatrix, diagonal: int, B: StoredMatrix, s: Scratch) -> None:
-    """Overwrite B, (m, n), by ``L^-1 B``, L lower triangular: blocks of rows, and a few rows at a time in each.
+def solve_unit_lower(m: int, n: int, L: StoredMatrix, B: StoredMatrix, s: Scratch) -> None:
+    """Overwrite B, (m, n), by ``L^-1 B``, L lower triangular with ones on its diagonal, which it does not hold.
 
     Parameters
     ----------
     m, n, L, B : sizes and matrices
-    diagonal : of L, as of `trsm_of`
     s : of the caller
     """
     for block in range(0, m, _BLOCK):
         end = min(block + _BLOCK, m)
         if block > 0:
-            left, own = StoredMatrix(L.begin + 8 * block, L.stride), StoredMatrix(B.begin + 8 * block, B.stride)
-            gemm(AS_STORED, end - block, n, block, left, B, s.one, own, s)
+            gemm(AS_STORED, end - block, n, block, block_at(L, block, 0), B, s.one, block_at(B, block, 0), s)
         for first in range(block, end, _ROWS):
-            width, corner = min(_ROWS, end - first), L.begin + 8 * first * (L.stride + 1)
-            own = StoredMatrix(B.begin + 8 * first, B.stride)
+            width, own = min(_ROWS, end - first), block_at(B, first, 0)
             if first > block:
-                left = StoredMatrix(L.begin + 8 * (first + block * L.stride), L.stride)
-                known = StoredMatrix(B.begin + 8 * block, B.stride)
+                left, known = block_at(L, first, block), block_at(B, block, 0)
                 gemm(AS_STORED, width, n, first - block, left, known, s.one, own, s)
-            trsm_of(s.left, s.plain, diagonal, width, n, StoredMatrix(corner, L.stride), own, s)
+            trsm_of(s.left, s.left, s.plain, s.upper, width, n, block_at(L, first, first), own, s)
 
 
 @part()
 def divide_by_lower(m: int, k: int, L: StoredMatrix, A: StoredMatrix, s: Scratch) -> None:
-    """Overwrite A, (m, k), by ``A L^-1``, L lower triangular: blocks of columns, and a few columns at a time in each.
+    """Overwrite A, (m, k), by ``A L^-1``, L lower triangular.
 
     Parameters
     ----------
@@ -103,23 +96,20 @@ def divide_by_lower(m: int, k: int, L: StoredMatrix, A: StoredMatrix, s: Scratch
     for block in range((k - 1) // _BLOCK * _BLOCK, -1, -_BLOCK):
         end = min(block + _BLOCK, k)
         if end < k:
-            below = StoredMatrix(L.begin + 8 * (end + block * L.stride), L.stride)
-            known = StoredMatrix(A.begin + 8 * end * A.stride, A.stride)
-            own = StoredMatrix(A.begin + 8 * block * A.stride, A.stride)
-            gemm(AS_STORED, m, end - block, k - end, known, below, s.one, own, s)
+            known, below = block_at(A, 0, end), block_at(L, end, block)
+            gemm(AS_STORED, m, end - block, k - end, known, below, s.one, block_at(A, 0, block), s)
         for first in range(block + (end - block - 1) // _STRIP * _STRIP, block - 1, -_STRIP):
-            behind, corner = min(first + _STRIP, end), L.begin + 8 * first * (L.stride + 1)
-            width, own = behind - first, StoredMatrix(A.begin + 8 * first * A.stride, A.stride)
+            behind, own = min(first + _STRIP, end), block_at(A, 0, first)
+            width = behind - first
             if behind < end:
-                below = StoredMatrix(corner + 8 * width, L.stride)
-                known = StoredMatrix(A.begin + 8 * behind * A.stride, A.stride)
+                known, below = block_at(A, 0, behind), block_at(L, behind, first)
                 gemm(AS_STORED, m, width, end - behind, known, below, s.one, own, s)
-            trsm(s.right, s.plain, m, width, StoredMatrix(corner, L.stride), own, s)
+            trsm(s.right, s.plain, m, width, block_at(L, first, first), own, s)
 
 
 @part()
 def solve_upper(m: int, n: int, U: StoredMatrix, B: StoredMatrix, s: Scratch) -> None:
-    """Overwrite B, (m, n), by ``U^-1 B``, U upper triangular: blocks of rows, and a few rows at a time in each.
+    """Overwrite B, (m, n), by ``U^-1 B``, U upper triangular.
 
     Parameters
     ----------
@@ -129,14 +119,12 @@ def solve_upper(m: int, n: int, U: StoredMatrix, B: StoredMatrix, s: Scratch) ->
     for block in range((m - 1) // _BLOCK * _BLOCK, -1, -_BLOCK):
         end = min(block + _BLOCK, m)
         if end < m:
-            right = StoredMatrix(U.begin + 8 * (block + end * U.stride), U.stride)
-            known, own = StoredMatrix(B.begin + 8 * end, B.stride), StoredMatrix(B.begin + 8 * block, B.stride)
-            gemm(AS_STORED, end - block, n, m - end, right, known, s.one, own, s)
+            right, known = block_at(U, block, end), block_at(B, end, 0)
+            gemm(AS_STORED, end - block, n, m - end, right, known, s.one, block_at(B, block, 0), s)
         for first in range(block + (end - block - 1) // _ROWS * _ROWS, block - 1, -_ROWS):
-            behind, corner = min(first + _ROWS, end), U.begin + 8 * first * (U.stride + 1)
-            width, own = behind - first, StoredMatrix(B.begin + 8 * first, B.stride)
+            behind, own = min(first + _ROWS, end), block_at(B, first, 0)
+            width = behind - first
             if behind < end:
-                right = StoredMatrix(corner + 8 * width * U.stride, U.stride)
-                known = StoredMatrix(B.begin + 8 * behind, B.stride)
+                right, known = block_at(U, first, behind), block_at(B, behind, 0)
                 gemm(AS_STORED, width, n, end - behind, right, known, s.one, own, s)
-            trsm_of(s.upper, s.plain, s.plain, width, n, StoredMatrix(corner, U.stride), own, s)
+            trsm_of(s.left, s.upper, s.plain, s.plain, width, n, block_at(U, first, first), own, s)

@@ -60,19 +60,20 @@ def tasks(plan: Plan) -> list[FrontTask]:
     return made.found
 
 
-def tiles(begin: int, end: int) -> list[Tile]:
+def tiles(begin: int, end: int, size: int = TILE) -> list[Tile]:
     """First rows and heights of tiles.
 
     Parameters
     ----------
     begin, end : of all rows
+    size : of a tile
 
     Examples
     --------
     >>> tiles(0, 1200)
     [(0, 512), (512, 512), (1024, 176)]
     """
-    return [(first, min(TILE, end - first)) for first in range(begin, end, TILE)]
+    return [(first, min(size, end - first)) for first in range(begin, end, size)]
 
 
 class _Tasks:

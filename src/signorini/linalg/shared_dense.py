@@ -24,6 +24,7 @@ from signorini.linalg import _dense_tiles
 from signorini.linalg._blas import StoredMatrix, scratch
 from signorini.linalg._front_tiles import eliminate_tile
 from signorini.linalg.schedule import TILE, Tile, tiles
+from signorini.linalg.shared_fronts import NoPivot
 
 SHARED = 1536
 """Rows from which threads share a factorisation or an inverse: three tiles, tens of milliseconds."""
@@ -57,20 +58,22 @@ def cholesky(matrix: Array | SingleArray) -> int:
     blocks, stored = tiles(0, n), _stored(matrix)
     jobs: list[Job] = []
     done: dict[Tile, int] = {}
-    failed: list[int] = []
 
     def eliminate(columns: Tile, rows: Tile) -> None:
-        column = 0 if failed else eliminate_tile(columns, rows, stored, scratch())
+        column = eliminate_tile(columns, rows, stored, scratch())
         if column:
-            failed.append(columns[0] + column)
+            raise NoPivot(columns[0] + column - 1)
 
     for i, block in enumerate(blocks):
         for rows in blocks[i:]:
             needs = {done[tile] for tile in (block, rows) if tile in done}
             jobs.append(Job(partial(eliminate, block, rows), tuple(sorted(needs))))
             done[rows] = len(jobs) - 1
-    _finish(jobs)
-    return min(failed, default=0)
+    try:
+        _finish(jobs)
+    except NoPivot as error:
+        return error.place + 1
+    return 0
 
 
 def inverse_of_cholesky(factor: Array, *, overwrite: bool = False) -> Array:
@@ -108,18 +111,15 @@ def _invert(factor: Array, first: int, end: int, crew: Crew) -> None:
         behind, before = tiles(middle, end), tiles(first, middle)
         across = [np.empty((end - middle, columns[1]), order="F") for columns in before]
 
-        def multiply(columns: Tile, found: Array) -> None:
-            _dense_tiles.multiply_columns(middle, end, columns, stored, _stored(found), scratch())
-
-        def add(columns: Tile, found: Array) -> None:
-            _dense_tiles.add_across(middle, end, columns, stored, _stored(found), scratch())
+        def invert(columns: Tile, found: Array) -> None:
+            _dense_tiles.invert_columns(middle, end, columns, stored, _stored(found), scratch())
 
         def place(columns: Tile, found: Array) -> None:
             factor[middle:end, columns[0] : sum(columns)] = found
 
         crew.each([partial(_divide, first, middle, rows, stored) for rows in behind])
         crew.each([partial(_invert, factor, *part, crew) for part in ((first, middle), (middle, end))])
-        for each in (multiply, add, place):
+        for each in (invert, place):
             crew.each([partial(each, *both) for both in zip(before, across, strict=True)])
     else:
         _dense_tiles.invert_alone(first, end, stored, scratch())
@@ -155,7 +155,7 @@ def factorise_with_pivots(matrix: Array) -> tuple[IntArray, int]:
     if n < SHARED:
         _, swapped, failed = lapack.dgetrf(matrix, overwrite_a=1) if n else (matrix, np.zeros(0, np.int32), 0)
         return np.asarray(swapped), int(failed)
-    blocks, stored = _panels(n), _stored(matrix)
+    blocks, stored = tiles(0, n, _PANEL), _stored(matrix)
     pivots = np.zeros(n, dtype=np.int32)
     failures: list[int] = []
 
@@ -217,10 +217,6 @@ def inverse_of_factors(lu: Array, swapped: IntArray, into: Array) -> None:
         into[:, row[block[0] : sum(block)]] = x
 
     _finish([Job(partial(compute, block)) for block in tiles(0, n)])
-
-
-def _panels(n: int) -> list[Tile]:
-    return [(first, min(_PANEL, n - first)) for first in range(0, n, _PANEL)]
 
 
 def _stored(matrix: Array | SingleArray) -> StoredMatrix:
