@@ -3,7 +3,7 @@
 
 A pair that stands on the edge of its event, or shares one with another, mostly does so whatever is varied: it retraces
 what it did before. Then nothing that any parameter changes of its condition is left but rounding, and no way forwards
-for each parameter has to say so.
+for each parameter has to say so. Of pairs that turn alike on smooth cones, and tell lengths, only that way tells it.
 """
 
 from __future__ import annotations
@@ -36,11 +36,16 @@ class EdgeProbe:
 
     def __bool__(self) -> bool:
         """Whether the history has any edge."""
-        return bool(self._on)
+        return bool(self._on or self.tied)
+
+    @cached_property
+    def tied(self) -> list[int]:
+        """Numbers of the points whose places are told by pairs that turn alike."""
+        return [i for i, point in enumerate(self._points) if point.tied]
 
     @property
     def points(self) -> list[int]:
-        """Numbers of the points with edges."""
+        """Numbers of the points with conditions on edges."""
         return list(self._on)
 
     def conditions(self, i: int) -> IntArray:
@@ -53,6 +58,8 @@ class EdgeProbe:
 
     def takes_apart(self, change: Change) -> bool:
         """Whether a parameter may take any edge apart; where it does not, that is sure up to rounding."""
+        if self.tied:
+            return True
         on_edges, of_all = (changed(self._every, adjoint, change) for adjoint in self._sums)
         return abs(on_edges) > _NOTHING_APART * abs(of_all)
 
@@ -62,8 +69,8 @@ class EdgeProbe:
 
     @cached_property
     def parted(self) -> bool:
-        """Whether gaps of single pairs take any edges apart."""
-        return _parted(*self._sums)
+        """Whether gaps of single pairs take conditions on edges apart."""
+        return bool(self._on) and _parted(*self._sums)
 
     @cached_property
     def _on(self) -> dict[int, IntArray]:

@@ -7,6 +7,9 @@ place. In each of them the equations of its states hold; it ends where the first
 that fall, at ``-e g' / (dg/dl)``; and the states behind are those in which the law lets the rates go on while the
 other conditions do not vanish yet. With these points the history has events of single pairs, and its derivative is
 that of any other.
+
+On smooth cones the first of these events ends an increment, and the next one goes over the others, where it is as
+short as increments may be that do. Where pairs turn alike that tell a length, one of them turns most to each side.
 """
 
 from __future__ import annotations
@@ -65,11 +68,39 @@ class EventOrder:
         """
         walk = self.walk
         while walk.ahead:
-            if walk.next.on_linear_path and on_edge(walk.next):
+            point = walk.next
+            if point.on_linear_path and on_edge(point):
                 self._one_by_one()
+            elif point.at_event and point.shared:
+                self._first()
             else:
+                if point.quiet is not None and point.tied:
+                    walk.put([replace(point, quiet=walk.quiet_move(point.quiet, self.way).end)], like=point)
                 walk.go_on()
         return walk.points
+
+    def _first(self) -> None:
+        """To the first of the events at the next point, on smooth cones, in place of all; others are behind it."""
+        walk, point = self.walk, self.walk.next
+        known = point.conditions
+        numbers = np.array([known.number(point.event), *point.shared])
+        parts = -change_of_conditions(point, walk.at_load(point))[numbers] / known.rate[numbers]
+        later = self.way * parts - float(np.min(self.way * parts))
+        apart = later > SHARED_EVENT * self.moves
+        if apart.any():
+            acts = int(numbers[np.argmin(later)])
+            walk.put([replace(point, acting=known.pair[[acts]], acts=acts)], like=point)
+        walk.go_on()
+        if apart.any():
+            behind = walk.next if walk.ahead else point
+            if behind.leg != point.leg or not behind.passes:
+                raise InputError(
+                    f"increments behind load factor {point.load_factor:.9g} have another length where pairs come to "
+                    "their events one after the other, with which answers jump a little"
+                )
+            # what sticks until an increment is under way slips under the friction at its end
+            late = np.isin(np.arange(point.system.pairs), known.pair[numbers[apart]]) & point.states.held.all(axis=0)
+            walk.put([replace(behind, increment=behind.increment | late)], like=behind)
 
     def _one_by_one(self) -> None:
         """Through the events at the next point."""

@@ -13,6 +13,7 @@ from signorini.derivative.adjoint_terms import BoundTerm
 from signorini.derivative.conditions import PieceEvent
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint, with_trials
+from signorini.derivative.quiet_ends import QuietEnd, QuietMove
 from signorini.derivative.recursion import AtOnce
 
 
@@ -25,12 +26,14 @@ class PointChange:
     h, r : (d, n) of motions and forces of all pairs, length and force, where the point is
     part : of the part of the leg that is behind
     bound : of the friction of the active pairs; None where that stays
+    turned : (n,) of the angles by which friction of the active pairs turns in each trial that tells where it is
     """
 
     h: Array
     r: Array
     part: float
     bound: BoundTerm | None
+    turned: tuple[Array, ...] = ()
 
 
 def forward(points: Sequence[TapePoint], change: AtOnce, remembered: Array) -> list[PointChange]:
@@ -87,29 +90,29 @@ class ForwardWalk:
         point = points[i]
         with point.determined():
             point.system.ahead((points[j].system, points[j].states) for j in range(i, len(points)))
-            (h, r), bound, part = self._at_load(point), self._bound(point.system), 0.0
+            (h, r), bound, part, turned = self._at_load(point), self._bound(point.system), 0.0, tuple[Array, ...]()
             if point.at_event:
                 event = point.event
                 part = -(event.change(h, r) + (0.0 if bound is None else _of_bound(event, bound))) / event.rate
             elif point.quiet is not None and i:
-                part = self._of_quiet_end(point)
+                move = self.quiet_move(point.quiet)
+                part, turned = move.part, move.turned
             if part:
                 assert point.rates is not None
                 h, r = (at_load + part * rate for at_load, rate in zip((h, r), point.rates, strict=True))
-        self.found.append(_of_all(point.system, h, r, part, bound))
+        self.found.append(_of_all(point.system, h, r, part, bound, turned))
 
     def at_load(self, point: TapePoint) -> PointChange:
         """What is changed at the load of the next point, in the states of one at the same place."""
         with point.determined():
             return _of_all(point.system, *self._at_load(point), 0.0, self._bound(point.system))
 
-    def _of_quiet_end(self, point: TapePoint) -> float:
-        """What is changed of the part of the leg that is behind at an end in space at which nothing happens."""
-        i = len(self.found)
+    def quiet_move(self, end: QuietEnd, way: float | None = None) -> QuietMove:
+        """How the next point moves, an end in space at which nothing happens; ``way`` as of `QuietEnd.move`."""
+        i, point = len(self.found), self.next
         one, two = (self.found[k].part if k >= 0 and self.points[k].leg == point.leg else 0.0 for k in (i - 1, i - 2))
-        assert point.quiet is not None
         tried = [self._at_load(trial)[1] for trial in point.trials]
-        return point.quiet.part(one, two, self.found[-1].r[1:, point.system.active] / point.system.root, tried)
+        return end.move(one, two, self.found[-1].r[1:, point.system.active] / point.system.root, tried, way)
 
     def _bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What is changed of the friction, kept."""
@@ -132,11 +135,18 @@ class ForwardWalk:
         return h + held, r + given
 
 
-def _of_all(system: InterfaceSystem, h: Array, r: Array, part: float, bound: BoundTerm | None) -> PointChange:
+def _of_all(
+    system: InterfaceSystem,
+    h: Array,
+    r: Array,
+    part: float,
+    bound: BoundTerm | None,
+    turned: tuple[Array, ...] = (),
+) -> PointChange:
     """Of motions and forces of all pairs, from those (d, n) of the active ones, scaled."""
     whole = np.zeros((2, system.directions, len(system.condensed.active)))
     whole[0][:, system.active], whole[1][:, system.active] = h / system.root, r * system.root
-    return PointChange(h=whole[0], r=whole[1], part=part, bound=bound)
+    return PointChange(h=whole[0], r=whole[1], part=part, bound=bound, turned=turned)
 
 
 def _seen(points: Sequence[TapePoint], moved: Sequence[tuple[Array, Array]]) -> list[Array]:

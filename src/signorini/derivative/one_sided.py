@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a history does to each side of what is varied, where pairs share an event or come to one at the very end.
 
-On paths that are linear from event to event these come one after the other, see `event_order`. On smooth cones the last
-piece ends at that event, and one of no length follows in the states in which the path would go on under more load:
-other pairs may change theirs with it, and friction keeps its direction, or takes that of the rates where a pair closes.
-In an increment, also in one on the way that goes on over events, the pair alone obeys another part of its law.
+Events on the way come one after the other, see `event_order`, and on paths that are linear from event to event also
+those at the very end. On smooth cones the last piece ends at that event there, and one of no length follows in the
+states in which the path would go on under more load: other pairs may change theirs with it, and friction keeps its
+direction, or takes that of the rates where a pair closes. In an increment, also in one on the way that goes on over
+events, the pair alone obeys another part of its law.
 """
 
 from __future__ import annotations
@@ -55,15 +56,29 @@ def beside(
     words = f"{found[0].words}: what {what} does on the other side is not known"
     if any(points[edge.point].system.locked != points[-1].system.locked for edge in found):  # bolts lock behind it
         raise InputError(words)
-    if all(points[edge.point].on_linear_path for edge in found):
+    at_end = [edge for edge in found if edge.point == last and not points[last].on_linear_path]
+    on_way = [edge for edge in found if edge not in at_end]
+    if any(not _ordered(points[edge.point]) for edge in on_way) or len(at_end) > 1:
+        raise InputError(words)
+    sides = [points, points]
+    if on_way:
         try:
-            return in_order(-1.0), in_order(1.0)
+            sides = [in_order(-1.0), in_order(1.0)]
         except InputError as error:
             raise InputError(f"{words}; {error}") from error
-    across = _beyond(view, found[0].condition, legs) if len(found) == 1 and found[0].point == last else None
-    if across is None:
-        raise InputError(words)
-    return (across, points) if found[0].change > 0.0 else (points, across)
+    for edge in at_end:
+        across = 0 if edge.change > 0.0 else 1
+        beyond = _beyond(replace(view, points=sides[across]), edge.condition, legs)
+        if beyond is None:
+            raise InputError(words)
+        sides[across] = beyond
+    below, above = sides
+    return below, above
+
+
+def _ordered(point: TapePoint) -> bool:
+    """Whether what comes to its edge at a point does so one after the other, see `event_order`."""
+    return point.on_linear_path or point.tied or point.at_event
 
 
 def _beyond(view: HistoryView, condition: int, legs: Sequence[Leg]) -> list[TapePoint] | None:

@@ -92,6 +92,11 @@ class TapePoint:
         return len(self.acting) > 0
 
     @property
+    def tied(self) -> bool:
+        """Whether the load here is that up to which several pairs turn alike, and farthest."""
+        return self.quiet is not None and self.quiet.tied
+
+    @property
     def on_linear_path(self) -> bool:
         """Whether it is on a path that is linear from one event to the next: in the plane, and on polygons."""
         law = self.system.law

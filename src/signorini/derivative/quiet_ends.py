@@ -6,18 +6,19 @@ friction turns by an angle a, tells the next length from its own by ``s_next = s
 
     s_next' = (s_next / s) (s' - s a' / a),    a' = a_0 . r_0' + a_1 . r_1',
 
-with the friction r_0 and r_1 of the pair that turns most where the increment begins and where the trial ends.
+with the friction r_0 and r_1 of the pair that turns most where the increment begins and where the trial ends. Where
+several turn alike, as where a model is symmetric, that is to each side of a change the one which then turns most.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import Array, IntArray
 from signorini.friction.history.follower import ZERO_WIDTH
 from signorini.friction.history.segment import Breakpoint
 from signorini.friction.history.space.lengths import EARLY_GROWTH, PROBE
@@ -25,6 +26,7 @@ from signorini.friction.history.space.straight import friction_turns
 from signorini.friction.problem import ContactProblem
 
 _SAME_LENGTH = 1e-9  # of a length: one that was chosen so
+_SAME_TURN = 1e-9  # of an angle: one that is the same
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,40 +36,71 @@ class TriedLength:
     Attributes
     ----------
     pair : that turns most
-    before, after : (2,) how its angle changes with its friction at the beginning and at the end
-    rate : of the angle per unit of the part of the leg
-    angle, length : how far it turns, and the length of the increment, part of the leg
+    angle : (n,) how far each pair turns, 0 or more
+    before, after : (2, n) how the angles change with friction at the beginning and at the end
+    rate : (n,) of the angles per unit of the part of the leg
+    length : of the increment, part of the leg
     ratio : of the next length to this one
     """
 
     pair: int
+    angle: Array
     before: Array
     after: Array
-    rate: float
-    angle: float
+    rate: Array
     length: float
     ratio: float
 
-    def next_length(self, length: float, begins: float, before: Array, after: Array) -> float:
-        """How the next length moves, part of the leg.
+    @property
+    def alike(self) -> IntArray:
+        """Pairs that turn as far as the one that turns most."""
+        return np.flatnonzero(self.angle >= (1.0 - _SAME_TURN) * self.angle[self.pair])
+
+    def turned(self, length: float, begins: float, before: Array, after: Array) -> Array:
+        """(n,) How the angles move.
 
         Parameters
         ----------
-        length, begins : how this one and its beginning do
+        length, begins : how this length and the beginning of the increment do, part of the leg
         before, after : (2, n) how friction changes at the beginning and, at its load, at the end
         """
-        turned = self.before @ before[:, self.pair] + self.after @ after[:, self.pair] + self.rate * (begins + length)
-        return self.ratio * (length - self.length * float(turned) / self.angle)
+        along = (self.before * before).sum(axis=0) + (self.after * after).sum(axis=0)
+        return np.asarray(along + self.rate * (begins + length))
+
+    def to_side(self, turned: Array, way: float) -> TriedLength:
+        """The same with the pair that turns most to one side, 1 or -1, of what moves the angles by ``turned``."""
+        alike = self.alike
+        return replace(self, pair=int(alike[np.argmax(way * turned[alike])])) if len(alike) > 1 else self
+
+    def next_length(self, length: float, turned: Array) -> float:
+        """How the next length moves, part of the leg, as this one and the angles do."""
+        return self.ratio * (length - self.length * float(turned[self.pair] / self.angle[self.pair]))
 
     def back(self, ahead: float) -> tuple[float, float]:
         """How an output changes with the angle and with the length, of how it does with the next length."""
-        of_angle = -ahead * self.ratio * self.length / self.angle
-        return of_angle, ahead * self.ratio + of_angle * self.rate
+        of_angle = -ahead * self.ratio * self.length / float(self.angle[self.pair])
+        return of_angle, ahead * self.ratio + of_angle * float(self.rate[self.pair])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class QuietMove:
+    """How the end of an increment moves at which nothing happens.
+
+    Attributes
+    ----------
+    end : with the pairs that turn most as it moves
+    part : how it moves, part of the leg
+    turned : (n,) how far friction turns otherwise in each of its trials
+    """
+
+    end: QuietEnd
+    part: float
+    turned: tuple[Array, ...]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class QuietEnd:
-    """How the end of an increment moves at which nothing happens.
+    """What the end of an increment moves with at which nothing happens.
 
     Attributes
     ----------
@@ -78,19 +111,30 @@ class QuietEnd:
     leads: tuple[float, float]
     trials: tuple[TriedLength, ...]
 
-    def part(self, begins: float, before: float, friction: Array, tried: Sequence[Array]) -> float:
-        """How the end moves, part of the leg.
+    @property
+    def tied(self) -> bool:
+        """Whether several pairs turn alike in some trial, and farthest."""
+        return any(len(trial.alike) > 1 for trial in self.trials)
+
+    def move(
+        self, begins: float, before: float, friction: Array, tried: Sequence[Array], way: float | None = None
+    ) -> QuietMove:
+        """How it moves.
 
         Parameters
         ----------
-        begins, before : how the beginning does, and that of the piece before
+        begins, before : how the beginning does, and that of the piece before, part of the leg
         friction : (2, n) how friction changes at the beginning
         tried : (3, n) how forces change at the ends of the trials, at their loads
+        way : 1 or -1, to this side; None: as it is
         """
         length = self.leads[0] * begins + self.leads[1] * before
+        trials, turned = list[TriedLength](), list[Array]()
         for trial, forces in zip(self.trials, tried, strict=True):
-            length = trial.next_length(length, begins, friction, forces[1:])
-        return begins + length
+            turned.append(trial.turned(length, begins, friction, forces[1:]))
+            trials.append(trial if way is None else trial.to_side(turned[-1], way))
+            length = trials[-1].next_length(length, turned[-1])
+        return QuietMove(end=replace(self, trials=tuple(trials)), part=begins + length, turned=tuple(turned))
 
     def back(self, moves: float, pairs: int, ask: Callable[[int, Array], Array]) -> tuple[Array, Array, float, float]:
         """How an output changes with what the end moves with, of how it does with the part of the leg there.
@@ -108,11 +152,12 @@ class QuietEnd:
         begins = length = moves
         for number in reversed(range(len(self.trials))):
             trial = self.trials[number]
+            k = trial.pair
             of_angle, length = trial.back(length)
-            begins += of_angle * trial.rate
-            friction[:, trial.pair] += of_angle * trial.before
+            begins += of_angle * float(trial.rate[k])
+            friction[:, k] += of_angle * trial.before[:, k]
             r = np.zeros((3, pairs))
-            r[1:, trial.pair] = of_angle * trial.after
+            r[1:, k] = of_angle * trial.after[:, k]
             memory -= ask(number, r)[: r.size].reshape(r.shape)[1:]
         return memory, friction, begins + self.leads[0] * length, self.leads[1] * length
 
@@ -155,20 +200,19 @@ def _trial(
     before, end, after = ends
     assert before.state is not None
     angles = friction_turns(law, before.state, end.r, end.h[1:] - before.h[1:], ZERO_WIDTH * (law.scale or 1.0))
-    pair = int(np.argmax(np.abs(angles)))
-    sign = np.sign(angles[pair])
-    one, two = (sign * _of_direction(force[1:, pair]) for force in (before.r, end.r))
+    one, two = (np.sign(angles) * _of_direction(force[1:]) for force in (before.r, end.r))
     return TriedLength(
-        pair=pair,
+        pair=int(np.argmax(np.abs(angles))),
+        angle=np.abs(angles),
         before=-one,
         after=two,
-        rate=float(two @ rate[:, pair]),
-        angle=abs(float(angles[pair])),
+        rate=(two * rate).sum(axis=0),
         length=(end.factor - before.factor) / reach,
         ratio=(after.factor - before.factor) / (end.factor - before.factor),
     )
 
 
 def _of_direction(force: Array) -> Array:
-    """(2,) How the angle of a force, (2,), changes with it."""
-    return np.array([-force[1], force[0]]) / float(force @ force)
+    """(2, n) How the angles of forces, (2, n), change with them; 0 of those that are none."""
+    size = (force**2).sum(axis=0)
+    return np.divide(np.stack([-force[1], force[0]]), size, out=np.zeros_like(force), where=size > 0.0)

@@ -27,6 +27,7 @@ from signorini.law.states import OPEN, STICK, UNDECIDED
 _BACK = 1e-3  # of a piece: how far before its end, where a pair may be in a corner, its edge is looked for
 _PRESSES = 1e-12  # of the data: a normal force as good as none, with which a cone still has a direction
 _WIDTH = 1e-10  # of the data: of zero for a condition
+_STAYS = 1e-9  # of what moves most in a piece: a condition that changes by less has not come to where it is
 
 
 def states_of_piece(
@@ -106,8 +107,10 @@ def acting_pairs(known: PieceConditions, start: tuple[Array, Array], end: PieceE
     start : (3, n) motions and forces at the beginning
     end : the end
     """
-    before = known.change(start[0] - end.h, start[1] - end.r)  # by how much it was larger
-    comes = (np.abs(known.value) <= _WIDTH * (end.law.scale or 1.0)) & (before > 2.0 * np.abs(known.value))
+    moved = start[0] - end.h, start[1] - end.r
+    before = known.change(*moved)  # by how much it was larger; a pair that stays at its limit comes to nothing
+    least = np.maximum(2.0 * np.abs(known.value), _STAYS * max(np.abs(part).max(initial=0.0) for part in moved))
+    comes = (np.abs(known.value) <= _WIDTH * (end.law.scale or 1.0)) & (before > least)
     return np.unique(known.pair[comes])
 
 

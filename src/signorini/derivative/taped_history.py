@@ -13,7 +13,7 @@ import numpy as np
 from signorini.arrays import Array
 from signorini.derivative.adjoint import adjoint_of
 from signorini.derivative.body_changes import BodyChange
-from signorini.derivative.changes import ChangeWithLocks, LoadChange, LockChange
+from signorini.derivative.changes import ChangeWithLocks, GapChange, LoadChange, LockChange
 from signorini.derivative.direct_changes import pulled_by, read_otherwise
 from signorini.derivative.edge_probe import EdgeProbe
 from signorini.derivative.event_order import EventOrder
@@ -363,13 +363,25 @@ class DirectionalDerivative:
         history.start.refuse_by_nodes(history.view, self._adjoint.remembered, what)
         for _, shortening in self._locks:
             shortening.refuse_by_nodes(what)
-        if why := self._shared.why_parted():
+        if why := self._shared.why_parted() or self._why_turned_apart():
             words = f"{why}: derivatives node by node may have two sides there; profile_sides(contact, change) and"
             raise InputError(f"{words} shape_sides(motion) know both of what is varied together", where=(what,))
         for tied, together in self._ties:
             if np.abs(together._by_gaps()).max() > _TWO_SIDES * np.abs(self._by_gaps()).max():
                 words = f"{tied.words}: derivatives node by node have two sides; profile_sides(contact, change) and"
                 raise InputError(f"{words} shape_sides(motion) know both of what is varied together", where=(what,))
+
+    def _why_turned_apart(self) -> str:
+        """Which pairs turn alike that random gaps take apart, so that the output feels it; empty where none do."""
+        history, points = self._history, self._history.view.points
+        if not any(i <= self._shared.last for i in history.probe.tied):
+            return ""
+        change = GapChange(gap=np.random.default_rng(0).uniform(-1.0, 1.0, len(points[-1].system.condensed.active)))
+        found = [edge for edge in self.felt(change) if points[edge.point].tied]
+        if not found:
+            return ""
+        low, high = self.beside(change, "the gap of single nodes")
+        return found[0].words if apart(low.along(change), high.along(change)) else ""
 
     def felt(self, change: Change) -> list[PathEdge]:
         """The edges of a change that the output feels, also by the shortenings at which bolts lock."""

@@ -11,6 +11,7 @@ import numpy as np
 from signorini.arrays import Array, IntArray
 from signorini.derivative.forward import PointChange, change_of_conditions
 from signorini.derivative.points import ZERO, TapePoint
+from signorini.derivative.quiet_ends import TriedLength
 from signorini.derivative.view import HistoryView
 from signorini.solution.sensitivities import Validity
 
@@ -44,12 +45,12 @@ def validity(view: HistoryView, changes: Sequence[PointChange], at_start: Sequen
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PathEdge:
-    """A condition that vanishes at a load that is given, or at one where another does.
+    """A condition that vanishes at a load that is given, or at one where another does; or pairs that turn alike.
 
     Attributes
     ----------
     point : its number, -1 where the history begins
-    condition : number of the condition in its piece
+    condition : number of the condition in its piece, of a pair where no condition is
     change : what a parameter changes of it there, per unit: on one side of the parameter the pair goes on as it is
     words : what happens, and where
     """
@@ -81,6 +82,7 @@ def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0
     moves = max((abs(change.part) for change in changes), default=0.0)
     found = []
     for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
+        found += _turning_alike(view, i, change, ZERO * moves)
         on = on_edge(point)
         grown = change_of_conditions(point, change) if on else np.zeros(0)
         for k in on:
@@ -94,6 +96,29 @@ def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0
             if apart and abs(grows) > scale * max(ZERO * moves, rounding):
                 found.append(PathEdge(point=i, condition=k, change=grows, words=edge_words(view, point, k)))
     return found
+
+
+def _turning_alike(view: HistoryView, i: int, change: PointChange, least: float) -> Iterator[PathEdge]:
+    """The pairs that turn as far as the one that tells where an increment ends, and not so far or farther by a change.
+
+    Parameters
+    ----------
+    view : the history
+    i, change : number of the point, and what the change makes of it
+    least : angle per unit that is as good as none
+    """
+    point = view.points[i]
+    for trial, turned in _turns(point, change):
+        spare, alike = turned[trial.pair] - turned, trial.alike
+        apart = np.abs(spare[alike]) > max(least, SHARED_EVENT * float(np.abs(turned).max()))
+        for pair in alike[apart].tolist():
+            words = _words(view, point, np.array([pair]), ["turns as far as another"])(0)
+            yield PathEdge(point=i, condition=pair, change=float(spare[pair]), words=words)
+
+
+def _turns(point: TapePoint, change: PointChange) -> Iterator[tuple[TriedLength, Array]]:
+    """The trials that tell where a point is, and (n,) how far friction turns otherwise in each by a change."""
+    yield from zip(point.quiet.trials, change.turned, strict=False) if point.quiet is not None else ()
 
 
 def edge_words(view: HistoryView, point: TapePoint, condition: int) -> str:
@@ -124,6 +149,10 @@ def _conditions(
         named = np.flatnonzero(there)
         words = _words(view, point, known.pair[named], _what(point, named))
         yield known.value[there], change_of_conditions(point, change)[there], words
+        for trial, turned in _turns(point, change):
+            less = np.setdiff1d(np.flatnonzero(trial.angle > 0.0), trial.alike)
+            spare, more = ((angle[trial.pair] - angle[less]) for angle in (trial.angle, turned))
+            yield spare, more, _words(view, point, less, ["turns farthest"] * len(less))
         moved = view.motions(i)
         (slips, ways), active = point.slips, point.system.active
         away, rate = (
