@@ -36,6 +36,7 @@ from signorini.law.states import OPEN, SLIP, STICK
 _ASIDE = 1e-3  # of the data, or of what presses a pair: how far conditions are put from zero that do not vanish yet
 _MOST_EVENTS = 100  # at one point, after which its order is given up
 _AHEAD = 1e-3  # of the data: how far rates are followed at most to see which way pairs slip
+_NEXT = 1e-9  # of the data: the same on smooth cones, where friction turns with the slip
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -69,10 +70,10 @@ class EventOrder:
         walk = self.walk
         while walk.ahead:
             point = walk.next
-            if point.on_linear_path and on_edge(point):
-                self._one_by_one()
-            elif point.at_event and point.shared:
+            if point.at_event and not point.on_linear_path and point.shared:
                 self._first()
+            elif point.ends_at_events and on_edge(point):
+                self._one_by_one()
             else:
                 if point.quiet is not None and point.tied:
                     walk.put([replace(point, quiet=walk.quiet_move(point.quiet, self.way).end)], like=point)
@@ -92,24 +93,35 @@ class EventOrder:
             walk.put([replace(point, acting=known.pair[[acts]], acts=acts)], like=point)
         walk.go_on()
         if apart.any():
-            behind = walk.next if walk.ahead else point
-            if behind.leg != point.leg or not behind.passes:
-                raise InputError(
-                    f"increments behind load factor {point.load_factor:.9g} have another length where pairs come to "
-                    "their events one after the other, with which answers jump a little"
-                )
-            # what sticks until an increment is under way slips under the friction at its end
-            late = np.isin(np.arange(point.system.pairs), known.pair[numbers[apart]]) & point.states.held.all(axis=0)
-            walk.put([replace(behind, increment=behind.increment | late)], like=behind)
+            if not (walk.ahead and walk.next.leg == point.leg and walk.next.passes):
+                raise _other_lengths(point)
+            self._slip_behind(point, known.pair[numbers[apart]])
+
+    def _slip_behind(self, point: TapePoint, pairs: IntArray) -> None:
+        """What the next increment, on smooth cones, knows of pairs at their limit that begin to slip in it."""
+        walk = self.walk
+        if not walk.ahead:
+            return
+        behind = walk.next
+        begin = np.isin(np.arange(point.system.pairs), pairs) & (point.states.held & ~behind.states.held).all(axis=0)
+        if not begin.any():
+            return
+        # how far they turn in it tells no length, and they slip under the friction at its end
+        if not behind.passes or any(begin[trial.pair] for trial in (behind.quiet.trials if behind.quiet else ())):
+            raise _other_lengths(point)
+        walk.put([replace(behind, increment=behind.increment | begin)], like=behind)
 
     def _one_by_one(self) -> None:
         """Through the events at the next point."""
         walk, point = self.walk, self.walk.next
         states = self._through(point, point.states, np.inf if point.at_event else 0.0)
         if not point.at_event:
-            walk.put([replace(point, states=states)], like=point)
+            walk.put([replace(point, states=states, load_rate=None, h_rate=None, r_rate=None)], like=point)
             walk.go_on()
             if not (walk.ahead and walk.next.on_linear_path):
+                if not point.on_linear_path:
+                    end = replace(point, states=states)
+                    self._slip_behind(end, end.conditions.pair[on_edge(end)])
                 return
             if not walk.next.system.alike(point.system):
                 raise _not_known(point)
@@ -178,7 +190,8 @@ class EventOrder:
         known, moved = point.conditions, (h - point.h, r - point.r)
         left, falls = known.value + known.change(*moved), -known.change(rates.h, rates.r)
         on_way = (left > ZERO * (law.scale or 1.0)) & (falls > 0.0)
-        ahead = 0.5 * float(np.min(left[on_way] / falls[on_way], initial=_AHEAD * (law.scale or 1.0) / rates.size))
+        most = _AHEAD if point.on_linear_path else _NEXT
+        ahead = 0.5 * float(np.min(left[on_way] / falls[on_way], initial=most * (law.scale or 1.0) / rates.size))
         found = states_of_piece(law, rates.state, (0.0 * h, r), (ahead * rates.h, r + ahead * rates.r))
         size = law.bound.at(np.maximum(point.r[0], 0.0))
         slips = found.unit.any(axis=0) & (size > 0.0)
@@ -246,6 +259,11 @@ def _codes(states: PairStates) -> IntArray:
     assert states.tangent is not None
     closed = np.where(states.held.all(axis=0), STICK, SLIP)
     return np.where(states.tangent.closed, closed, OPEN).astype(np.int64)
+
+
+def _other_lengths(point: TapePoint) -> InputError:
+    words = f"increments behind load factor {point.load_factor:.9g} have another length where pairs come to their events"
+    return InputError(f"{words} one after the other, with which answers jump a little")
 
 
 def _not_known(point: TapePoint) -> InputError:

@@ -56,9 +56,9 @@ def beside(
     words = f"{found[0].words}: what {what} does on the other side is not known"
     if any(points[edge.point].system.locked != points[-1].system.locked for edge in found):  # bolts lock behind it
         raise InputError(words)
-    at_end = [edge for edge in found if edge.point == last and not points[last].on_linear_path]
+    at_end = [edge for edge in found if not _in_order(points[edge.point])]
     on_way = [edge for edge in found if edge not in at_end]
-    if any(not _ordered(points[edge.point]) for edge in on_way) or len(at_end) > 1:
+    if len(at_end) > 1 or any(edge.point != last for edge in at_end):
         raise InputError(words)
     sides = [points, points]
     if on_way:
@@ -76,9 +76,9 @@ def beside(
     return below, above
 
 
-def _ordered(point: TapePoint) -> bool:
+def _in_order(point: TapePoint) -> bool:
     """Whether what comes to its edge at a point does so one after the other, see `event_order`."""
-    return point.on_linear_path or point.tied or point.at_event
+    return point.ends_at_events or point.tied or point.at_event
 
 
 def _beyond(view: HistoryView, condition: int, legs: Sequence[Leg]) -> list[TapePoint] | None:

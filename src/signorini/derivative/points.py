@@ -97,11 +97,16 @@ class TapePoint:
         return self.quiet is not None and self.quiet.tied
 
     @property
+    def ends_at_events(self) -> bool:
+        """Whether any event in the piece would end it."""
+        return self.rates is not None and not self.passes
+
+    @property
     def on_linear_path(self) -> bool:
         """Whether it is on a path that is linear from one event to the next: in the plane, and on polygons."""
         law = self.system.law
         cones = self.states.codes is None and bool((law.law.rubs & (law.section.sides == 0)).any())
-        return self.rates is not None and not self.passes and not cones
+        return self.ends_at_events and not cones
 
     @cached_property
     def rates(self) -> tuple[Array, Array] | None:
