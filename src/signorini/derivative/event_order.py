@@ -48,7 +48,7 @@ class EventOrder:
     walk : forwards along the history with the change, from its beginning
     legs : straight parts of the history
     way : 1 upwards, -1 downwards
-    moves : part of a leg that the change moves events by at most, per unit
+    moves : part of a leg that the change moves events on the way by at most, per unit
     rounding : of the data of the law, per unit: what a change of a condition is as good as none below
     """
 
@@ -166,14 +166,12 @@ class EventOrder:
         here = replace(here, h_rate=h_rate, r_rate=r_rate)
         scale, known = system.law.scale or 1.0, here.conditions
         numbers = np.flatnonzero(np.abs(known.value) <= ZERO * scale)
+        grows = self.way * change_of_conditions(here, self.walk.at_load(here))[numbers]
         rates = known.rate[numbers]
-        return _Piece(
-            point=here,
-            numbers=numbers,
-            grows=self.way * change_of_conditions(here, self.walk.at_load(here))[numbers],
-            rates=rates,
-            none=np.maximum(SHARED_EVENT * self.moves * np.abs(rates), scale * max(ZERO * self.moves, self.rounding)),
-        )
+        # with the events that it takes apart here, where no others move
+        moves = max(self.moves, float(np.abs(grows).max(initial=0.0)) / here.fastest)
+        none = np.maximum(SHARED_EVENT * moves * np.abs(rates), scale * max(ZERO * moves, self.rounding))
+        return _Piece(point=here, numbers=numbers, grows=grows, rates=rates, none=none)
 
     def _behind(self, piece: _Piece, part: float) -> PairStates:
         """The states behind a part of the leg in a piece, while conditions that do not vanish there are aside."""
