@@ -51,10 +51,14 @@ def random_squeezed(seed, one=1.0):
     )
 
 
-def squeezed_in_space(seed, one=1.0):
-    """A block with a crown across, squeezed or pulled from both sides and back, on octagons; ``one`` as above."""
+def squeezed_in_space(seed, one=1.0, facets=8):
+    """A block with a crown across, squeezed or pulled from both sides and back; ``one`` as above.
+
+    On octagons, or on smooth cones (0) in increments that are always as fine.
+    """
     random = np.random.default_rng(seed)
-    block = sg.box(x=np.linspace(0.0, 1.0, int(random.integers(1, 3)) + 1), y=np.linspace(-0.6, 0.6, 3), z=[0.0, 0.7])
+    layers = np.linspace(0.0, 0.7, 2 if facets else 3)
+    block = sg.box(x=np.linspace(0.0, 1.0, int(random.integers(1, 3)) + 1), y=np.linspace(-0.6, 0.6, 3), z=layers)
     x, y, z = block.points.T
     gap = random.choice([0.0, 0.002]) + random.choice([0.0, 0.01]) * x + random.choice([0.004, 0.01]) * y**2
     across = random.choice([-1.0, 1.0]) * random.uniform(5.0, 30.0)
@@ -68,9 +72,30 @@ def squeezed_in_space(seed, one=1.0):
             sg.Load("front", traction=(4.0, across, 0.0), name="one"),
             sg.Load("back", traction=(4.0, -across, 0.0), name="other"),
         ],
-        contacts=[sg.Contact("bottom", plane, friction=random.uniform(0.1, 0.5), facets=8, name="joint")],
+        contacts=[sg.Contact("bottom", plane, friction=random.uniform(0.1, 0.5), facets=facets, name="joint")],
         steps=[
-            sg.Step(scale={"down": 1.0}, path="exact"),
-            *(sg.Step(scale=dict(zip(("one", "other"), part, strict=True)), path="exact") for part in scales),
+            sg.Step(scale=scale, **({"path": "exact"} if facets else {"tolerance": 0.5}))
+            for scale in [{"down": 1.0}, *(dict(zip(("one", "other"), part, strict=True)) for part in scales)]
         ],
+    )
+
+
+def turning_alike(one=1.0):
+    """A block rounded both ways on smooth cones, pressed and pulled along its plane of symmetry; ``one`` as above.
+
+    Friction turns alike on both sides of that plane, and tells how long increments are; pairs share no event.
+    """
+    block = sg.box(x=np.linspace(-0.5, 0.5, 5), y=np.linspace(-0.6, 0.6, 4), z=[0.0, 0.7])
+    x, y, z = block.points.T
+    gap = 0.02 * x**2 + 0.013 * y**2 + 0.004 * (y + 0.6) + 0.002
+    return sg.Model(
+        replace(block, points=np.column_stack([x, y, z + (0.7 - z) / 0.7 * gap])),
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+        supports=[sg.Support("top", u=(0.0, 0.0, -0.03), name="down")],
+        loads=[
+            sg.Load("right", traction=(0.9, 2.4, 0.0), name="one"),
+            sg.Load("left", traction=(-0.9, 2.4, 0.0), name="other"),
+        ],
+        contacts=[sg.Contact("bottom", sg.Plane(point=(0, 0, 0), normal=(0, 0, 1)), friction=0.3, name="joint")],
+        steps=[sg.Step(scale={"down": 1.0, "one": one, "other": 1.0})],
     )

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from tests.derivative.symmetric import random_squeezed, squeezed, squeezed_in_space
+from benchmarks import random_cones
+from signorini.derivative.functionals import value
+from tests.derivative.symmetric import random_squeezed, squeezed, squeezed_in_space, turning_alike
 
 PEAK, WORK = sg.pressure("joint").peak, sg.dissipation()
 
@@ -62,6 +64,98 @@ def test_on_polygons_too(seed):
     node = int(solution.steps[-1].contacts[0].node[0])
     outputs = (PEAK, sg.force("joint", along=(1, 0, 0)), WORK, sg.traction("joint")[node, 0])
     beside(solution, low, high, outputs, lambda derivative: derivative.sides("load.one"), step)
+
+
+def limits(outputs, model_at, step):
+    """Derivatives of outputs to both sides of 1, of models beside it alone, as its own answer may be another one."""
+    views = [sg.solve(model_at(1.0 + part * step), tape=True)._taped.view for part in (-2, -1, 1, 2)]
+    low, below, above, high = ([value(output, view) for output in outputs] for view in views)
+    return [((b - a) / step, (d - c) / step) for a, b, c, d in zip(low, below, above, high, strict=True)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [2, 5, 9])
+def test_on_smooth_cones_too(seed):
+    """The first of the events ends an increment, the next one goes over the others; others tell lengths by turning."""
+    solution = sg.solve(squeezed_in_space(seed, facets=0), tape=True)
+    assert any(point.at_event and point.shared for point in solution._taped.view.points)
+    node = int(solution.steps[-1].contacts[0].node[0])
+    outputs = (PEAK, sg.force("joint", along=(0, 1, 0)), WORK, sg.traction("joint")[node, 0])
+    wanted, two = limits(outputs, lambda one: squeezed_in_space(seed, one, facets=0), 1e-6), 0
+    for output, sides in zip(outputs, wanted, strict=True):
+        found = solution.derivative(output).sides("load.one")
+        assert found == pytest.approx(sides, rel=1e-5, abs=1e-5)
+        two += abs(found[0] - found[1]) > 1e-3 * max(map(abs, found))
+    assert two > 1
+
+
+@pytest.fixture(scope="module")
+def alike():
+    """A block on smooth cones of which two pairs turn alike, farther than all others."""
+    solution = sg.solve(turning_alike(), tape=True)
+    points = solution._taped.view.points
+    assert any(point.tied for point in points)
+    assert not any(point.at_event and point.shared for point in points)
+    return solution
+
+
+def test_what_makes_one_of_two_pairs_turn_farther_has_two_sides(alike):
+    derivative = alike.derivative(PEAK)
+    with pytest.raises(sg.InputError, match=r"turns as far as another before load factor .* two sides there"):
+        derivative.by("load.one")
+    with pytest.raises(sg.InputError, match=r"turns as far as another .*: derivatives node by node may have two sides"):
+        _ = derivative.gap["joint"]
+    low, high = derivative.sides("load.one")
+    assert (low, high) == pytest.approx(*limits([PEAK], turning_alike, 1e-6), rel=1e-5)
+    assert abs(high - low) > 1e-4 * abs(high)
+    assert 0.0 in (derivative.holds("load.one").low, derivative.holds("load.one").high)
+
+
+def test_what_keeps_the_symmetry_lets_pairs_turn_alike(alike):
+    derivative = alike.derivative(PEAK)
+    low, high = derivative.sides("friction.joint")
+    assert derivative.by("friction.joint") == low == high
+    holds = derivative.holds("friction.joint")
+    assert holds.low < 0.0 < holds.high
+
+
+def test_another_pair_that_turns_farthest_ends_what_a_derivative_holds_for():
+    model = random_cones.random_model(14)
+    holds = sg.solve(model, tape=True).derivative(random_cones.OUTPUTS[0]).holds("load.pull")
+    assert "turns farthest" in holds.ends[0]
+
+    def farthest(part):
+        points = sg.solve(random_cones.changed(model, "load.pull", part * holds.low), tape=True)._taped.view.points
+        return [trial.pair for point in points if point.quiet for trial in point.quiet.trials]
+
+    assert farthest(0.9) == farthest(0.0) != farthest(1.1)
+
+
+def test_answers_that_jump_with_the_length_of_increments_are_refused():
+    """Behind an event that pairs share an increment may be long; behind one of several, it goes over the others."""
+    derivative = sg.solve(squeezed_in_space(0, facets=0), tape=True).derivative(PEAK)
+    with pytest.raises(sg.InputError, match=r"another length .*, with which answers jump a little"):
+        derivative.sides("load.one")
+    assert derivative.by("friction.joint") == pytest.approx(derivative.sides("friction.joint")[0])
+
+
+@pytest.mark.slow
+def test_a_history_on_smooth_cones_may_end_where_pairs_come_to_their_events_together():
+    """To one side both have slipped before the end, to the other one or none; the loads hold that tells."""
+    points = sg.solve(squeezed_in_space(4, facets=0), tape=True)._taped.view.points
+    part, leg = next((point.part, point.leg) for point in points if point.leg and len(point.acting) > 1)
+    assert leg == 1
+
+    def ended(one):
+        model = squeezed_in_space(4, facets=0)
+        pressed, squeezed_so, *_ = model.steps
+        scale = {"one": one * part * squeezed_so.scale["one"], "other": part * squeezed_so.scale["other"]}
+        return replace(model, steps=[pressed, replace(squeezed_so, scale=scale)])
+
+    solution = sg.solve(ended(1.0), tape=True)
+    outputs = (PEAK, sg.force("joint", along=(0, 1, 0)), WORK)
+    for output, sides in zip(outputs, limits(outputs, ended, 1e-6), strict=True):
+        assert solution.derivative(output).sides("load.one") == pytest.approx(sides, rel=1e-5, abs=1e-6)
 
 
 @pytest.fixture(scope="module")

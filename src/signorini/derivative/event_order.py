@@ -260,7 +260,9 @@ def _codes(states: PairStates) -> IntArray:
 
 
 def _other_lengths(point: TapePoint) -> InputError:
-    words = f"increments behind load factor {point.load_factor:.9g} have another length where pairs come to their events"
+    words = (
+        f"increments behind load factor {point.load_factor:.9g} have another length where pairs come to their events"
+    )
     return InputError(f"{words} one after the other, with which answers jump a little")
 
 

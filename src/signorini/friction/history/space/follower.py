@@ -60,6 +60,7 @@ _PATIENCE = 4  # tries
 _EVENT_TRIES = 12  # in which an event is met to rounding, if it can be
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
 _EVENT_WIDTH = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
+_BENDS = 0.9  # by how much of its own length an increment moves where its event is expected, at most: no farther trust
 _QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
 
 
@@ -249,8 +250,8 @@ class SpaceFollower(PathFollower):
                     break
                 step = step / 16.0 if best is None else 0.5 * (best.step + step)
             elif trial.until >= 1.0 - min(late, _LATE_EVENT_TOL) and trial.turn <= self._turn:
-                best, inner = replace(trial, search=search), inner or trial
-                step = trial.step * self._room(trial, inner.after.state)
+                last, best, inner = best, replace(trial, search=search), inner or trial
+                step = self._aim(trial, last, inner.after.state)
                 if step >= longest and longest < left:
                     if longest == barrier and longest <= trial.step * (1.0 + _REFUSED):
                         break
@@ -295,12 +296,28 @@ class SpaceFollower(PathFollower):
         known = self._rate is not None and self.now.r.any()
         return self._counted(self.now.r) + step * self._rate if known and self._rate is not None else None
 
-    def _room(self, trial: SolvedIncrement, state: IntArray) -> float:
-        """How much longer than the trial the increment may be: up to the next event, and to the turn allowed."""
-        times = max(1.0, extrapolated_length(self.problem, self.now, replace(trial.after, state=state), self.width))
+    def _aim(self, trial: SolvedIncrement, last: SolvedIncrement | None, state: IntArray) -> float:
+        """The length to try after one in which nothing has happened: up to the next event, and to the turn allowed.
+
+        Parameters
+        ----------
+        trial : the increment
+        last : the one before in which nothing has happened; None where there is none
+        state : (n,) inside it
+        """
+        event = self._event_ahead(trial, state)
+        if last is not None and last.step < trial.step < event < np.inf:
+            # friction that turns on other pairs bends the way there: where what is expected would be what it is
+            moves = (event - self._event_ahead(last, state)) / (trial.step - last.step)
+            event = trial.step + (event - trial.step) / (1.0 - min(max(moves, 0.0), _BENDS))
+        aim = max(trial.step, event)
         if trial.turn > 0.0:
-            times = min(times, max(1.0, SHORT * self._turn / trial.turn))
-        return max(times, self._shortest / trial.step)
+            aim = min(aim, max(trial.step, turned_length(trial, self._turn)))
+        return max(aim, self._shortest)
+
+    def _event_ahead(self, trial: SolvedIncrement, state: IntArray) -> float:
+        """The length at whose end an event is expected, from the way up to the end of a trial in some states."""
+        return trial.step * extrapolated_length(self.problem, self.now, replace(trial.after, state=state), self.width)
 
     @property
     def _turn(self) -> float:
