@@ -80,7 +80,7 @@ def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0
     rounding : of the data of the law, per unit: what a change of a condition is as good as none below
     """
     moves = max((abs(change.part) for change in changes), default=0.0)
-    found = []
+    found = list[PathEdge]()
     for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
         found += _turning_alike(view, i, change, ZERO * moves)
         on = on_edge(point)

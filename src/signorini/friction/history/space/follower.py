@@ -230,7 +230,8 @@ class SpaceFollower(PathFollower):
         shortest = self._shortest
         left = self.reach - self.factor
         step = min(max(PROBE * self.last, _LEAST_PROBE, shortest), left)
-        tried, best = self.tried, None
+        tried = self.tried
+        best: SolvedIncrement | None = None
         inner: SolvedIncrement | None = None
         beyond: SolvedIncrement | None = None
         search: tuple[SolvedIncrement, ...] = ()  # that told lengths one after the other, see `Breakpoint`
@@ -250,8 +251,8 @@ class SpaceFollower(PathFollower):
                     break
                 step = step / 16.0 if best is None else 0.5 * (best.step + step)
             elif trial.until >= 1.0 - min(late, _LATE_EVENT_TOL) and trial.turn <= self._turn:
-                last, best, inner = best, replace(trial, search=search), inner or trial
-                step = self._aim(trial, last, inner.after.state)
+                inner = inner or trial
+                step, best = self._aim(trial, best, inner.after.state), replace(trial, search=search)
                 if step >= longest and longest < left:
                     if longest == barrier and longest <= trial.step * (1.0 + _REFUSED):
                         break
