@@ -59,8 +59,8 @@ class PairStates:
         one, two = self.tangent, other.tangent
         assert one is not None
         assert two is not None
-        corner = one.left == 0  # along an edge friction differs
-        ways = [one.tau - two.tau, (self.unit - other.unit)[:, corner]]
+        edge, corner = one.left == 1, one.left == 0  # along an edge friction differs, a corner has no way
+        ways = [(one.tau - two.tau)[:, edge], (self.unit - other.unit)[:, corner]]
         return (
             np.array_equal(self.branch, other.branch)
             and all(np.array_equal(getattr(one, name), getattr(two, name)) for name in ("closed", "left"))
