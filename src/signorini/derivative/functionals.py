@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, IntArray
 from signorini.derivative.adjoint_terms import Weights
+from signorini.derivative.points import TapePoint
 from signorini.derivative.view import HistoryView
 from signorini.errors import InputError, one_of
 from signorini.fem.probe import StressProbe
@@ -49,6 +52,22 @@ def weights(output: Output, view: HistoryView) -> dict[int, Weights]:
         return _dissipation(output, view, i)[1]
     _, h, r = _of_pairs(output, view, i)
     return {i: Weights(h=h, r=r)}
+
+
+def weights_at_start(output: Output, view: HistoryView, rest: TapePoint) -> Weights:
+    """How an output changes with motions and friction of the pairs where the history begins, which take part in work.
+
+    Parameters
+    ----------
+    output, view : the output and the history
+    rest : its beginning, none of its points
+    """
+    found = Weights(h=np.zeros_like(view.motions(0)), r=np.zeros_like(view.motions(0)))
+    for factor, part in output.parts if isinstance(output, WeightedSum) else ((1.0, output),):
+        if isinstance(part, Dissipation):
+            known = weights(part, replace(view, points=[rest, *view.points]))[0]
+            found = Weights(h=found.h + factor * known.h, r=found.r + factor * known.r)
+    return found
 
 
 def displacement_weights(output: Displacement | Stress, view: HistoryView) -> Array:

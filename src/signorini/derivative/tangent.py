@@ -11,7 +11,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.derivative.forward import PointChange
-from signorini.derivative.functionals import weights
+from signorini.derivative.functionals import weights, weights_at_start
 from signorini.derivative.taped_history import TapedHistory
 from signorini.derivative.tied_peaks import peak_nodes, tied_words
 from signorini.derivative.touching_start import GapRate
@@ -51,6 +51,7 @@ class HistoryTangent:
     changes : what the parameter changes at every point
     load_factor : where it is asked for; None at the end
     ways : 1 upwards, -1 downwards, or both
+    at_start : (2, d - 1, n) what it changes of motions and friction where the history begins, on smooth cones
     """
 
     def __init__(
@@ -59,8 +60,10 @@ class HistoryTangent:
         changes: Sequence[PointChange],
         load_factor: float | None,
         ways: tuple[float, ...],
+        at_start: Array,
     ) -> None:
         self._history, self._changes, self._load_factor, self._ways = history, changes, load_factor, ways
+        self._at_start = at_start
         self._number = history.view.number(load_factor)
 
     def apart(self, other: HistoryTangent) -> bool:
@@ -89,7 +92,7 @@ class HistoryTangent:
 
     def to_both(self) -> HistoryTangent:
         """The tangent of a parameter that changes the same to both sides."""
-        return HistoryTangent(self._history, self._changes, self._load_factor, (-1.0, 1.0))
+        return HistoryTangent(self._history, self._changes, self._load_factor, (-1.0, 1.0), self._at_start)
 
     def contact(self, name: str) -> ContactTangent:
         """What it changes of a contact, by name."""
@@ -124,9 +127,14 @@ class HistoryTangent:
         return float(self._terms(output).sum())
 
     def _terms(self, output: Output) -> Array:
-        """What it changes of an output of contacts by what it changes at one point after the other."""
-        pairs = [(weight, self._changes[i]) for i, weight in weights(output, self._history.view).items()]
-        return np.array([np.vdot(weight.h, change.h) + np.vdot(weight.r, change.r) for weight, change in pairs])
+        """What it changes of an output of contacts by what it changes where the history begins and at its points."""
+        view = self._history.view
+        pairs = [(weight, self._changes[i]) for i, weight in weights(output, view).items()]
+        terms = [np.vdot(weight.h, change.h) + np.vdot(weight.r, change.r) for weight, change in pairs]
+        if self._at_start.any():
+            first = weights_at_start(output, view, self._history.start.at_rest)
+            terms.append(np.vdot([first.h[1:], first.r[1:]], self._at_start))
+        return np.array(terms)
 
     def _of_peak(self, nodes: Sequence[AtNode]) -> float:
         """What it changes of the largest pressure, which several nodes have."""
@@ -181,7 +189,13 @@ def tangent_sides(
     change, last = history.change(kind, name), history.view.number(load_factor)
     found = [edge for edge in history.edges(change) if edge.point <= last]
     below, above = (
-        HistoryTangent(side, side.forward(change, way), load_factor if side is history else None, (way,))
+        HistoryTangent(
+            side,
+            side.forward(change, way),
+            load_factor if side is history else None,
+            (way,),
+            history.at_start(change, way),
+        )
         for side, way in zip(history.beside(change, found, last, f"'{kind}.{name}'"), (-1.0, 1.0), strict=True)
     )
     return below, above

@@ -18,7 +18,7 @@ from signorini.derivative.direct_changes import pulled_by, read_otherwise
 from signorini.derivative.edge_probe import EdgeProbe
 from signorini.derivative.event_order import EventOrder
 from signorini.derivative.forward import ForwardWalk, PointChange, forward
-from signorini.derivative.functionals import value
+from signorini.derivative.functionals import value, weights_at_start
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.modulus_pairs import ModulusPairs
 from signorini.derivative.one_sided import beside
@@ -63,7 +63,7 @@ class TapedHistory:
         refuse_tape(tape, model)
         points, self.legs = tape_points(tape), tape.legs
         self.start = TouchingStart(legs=self.legs, points=points)
-        self.view = HistoryView.of([*self.start.at_rest, *points])
+        self.view = HistoryView.of(self.start.history)
         self.probe = EdgeProbe(self.view.points)
         self._changes: dict[tuple[str, str], Change] = {}
         self._forward: dict[tuple[Change, float], list[PointChange]] = {}
@@ -126,6 +126,17 @@ class TapedHistory:
             return self.forward(change, 1.0)
         except InputError:
             return self._along(change, self._nothing)
+
+    def at_start(self, change: Change, way: float) -> Array:
+        """(2, d - 1, n) What a change makes, to one side, of motions and friction where the history begins.
+
+        Beside what is remembered of it: on smooth cones alone; errors as of `forward`.
+        """
+        gap = GapRate.of(change)
+        if self.start.on_linear_path or not self.start.moved(gap).any():
+            return np.zeros((2, *self._nothing.shape))
+        one_way = gap.times(way)
+        return way * np.stack([self.start.memory(one_way), self.start.friction(one_way)])
 
     def _remembered(self, change: Change, way: float) -> Array:
         """(d - 1, n) What a change makes of tangential motions before the first point, to one side, length per unit."""
@@ -328,9 +339,20 @@ class DirectionalDerivative:
         """
         start, remembered = self._history.start, self._adjoint.remembered
         found = sum(share * shortening.through_start(gap, way) for share, shortening in self._locks)
-        if remembered.any() and start.moved(gap).any():
-            found += way * float(np.vdot(remembered, start.memory(gap.times(way))))
+        if start.moved(gap).any() and (remembered.any() or self._work_at_start.any()):
+            memory = start.memory(gap.times(way))
+            found += way * float(np.vdot(remembered, memory))
+            found += way * float(np.vdot(self._work_at_start, [memory, start.friction(gap.times(way))]))
         return found
+
+    @cached_property
+    def _work_at_start(self) -> Array:
+        """(2, d - 1, n) How the output changes with motions and friction where the history begins, but by memory."""
+        history = self._history
+        if history.start.on_linear_path:
+            return np.zeros((2, *self._adjoint.remembered.shape))
+        weights = weights_at_start(self.output, history.view, history.start.at_rest)
+        return np.stack([weights.h[1:], weights.r[1:]])
 
     def by_gaps(self) -> Array:
         """(n,) The derivative by the gap of every pair, per length.

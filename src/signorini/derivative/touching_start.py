@@ -5,6 +5,9 @@ Where they overlap a little they press at once; where they are a little apart th
 that grow with the change. Either way they stick at other tangential motions, in proportion to the change, and from then
 on that is all that is left of it, next to what the same pieces make of the gaps. The law is linear in its pieces, so
 that a path with gaps that are changed by a small part tells those motions to rounding, on the bodies as they are.
+
+On smooth cones pairs that are a little apart close in the first increment, which is as short as may be then, and only
+those that press at once have moved before it. The history as it is goes on straight there, and may end a piece, too.
 """
 
 from __future__ import annotations
@@ -13,6 +16,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain, dropwhile, islice
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -22,21 +26,26 @@ from signorini.derivative.body_changes import BodyChange
 from signorini.derivative.changes import GapChange
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.points import ZERO, TapePoint
+from signorini.derivative.quiet_ends import QuietEnd
 from signorini.derivative.recursion import Change
 from signorini.derivative.space_conditions import states_between
 from signorini.derivative.validity import PathEdge
 from signorini.derivative.view import HistoryView
+from signorini.engine.automatic import MORE_IN_SPACE
 from signorini.engine.floating_bodies import approached, resting
 from signorini.engine.path_states import path_state
+from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import Interval, StepPart
 from signorini.engine.tape import Leg
 from signorini.errors import InputError, SolveFailed
-from signorini.friction.history import Segment
+from signorini.friction.history import PathState, Segment
+from signorini.friction.history.space.lengths import early
 
 _PARTS = (1e-2, 1e-3, 1e-4)  # of how far half a piece goes: larger than what a path takes two events together in
 _UNTIL = 0.5  # of the first piece: where motions are compared
 _SAME_MOTION = 1e-6  # of the largest, or of the change: motions that are in proportion to it
 _SAME_SIDES = 1e-6  # of motions as long as changes of gaps: what may be left of both ways together
+_STRAIGHT = 1e-9  # of what moves or presses most in the first piece: what lies on a straight way
 _SAME_PLACE = 1e-14  # of the size of the model: what gaps differ by between places that are the same
 
 
@@ -97,33 +106,74 @@ class TouchingStart:
     _known: dict[bytes, Array] = field(default_factory=dict, init=False)
 
     @property
-    def at_rest(self) -> list[TapePoint]:
-        """Where pairs that touch begin to be in the states of the first piece, on a path: nothing moves or presses yet.
+    def on_linear_path(self) -> bool:
+        """Whether the first piece is on a path that is linear from event to event."""
+        return self.points[0].on_linear_path
 
-        What pairs that slip from there on have moved by then changes with gaps, and friction takes no work from that.
+    @property
+    def at_rest(self) -> TapePoint:
+        """Where the history begins: nothing moves or presses yet."""
+        return self._on_first_piece(0.0, at_rest=True)
+
+    @property
+    def history(self) -> list[TapePoint]:
+        """The points of the history, with those in its first piece that gaps make that are other ones."""
+        return [*self._beginning, *self.points[1:]] if self._beginning else list(self.points)
+
+    @cached_property
+    def _beginning(self) -> list[TapePoint]:
+        """The first piece, cut in two; empty where it is none that is cut."""
+        first, leg = self.points[0], self.legs[0]
+        if not self.pairs.any() or leg.start is None or leg.segment is None or leg.start.r.any():
+            return []
+        if first.on_linear_path:
+            return [self.at_rest, first]
+        # with other gaps the law does not hold all along one increment any more
+        shortest = min(leg.segment.shortest, 1.0 / MORE_IN_SPACE)
+        part = early(shortest, 0.0) / leg.segment.pieces[-1].factor
+        if not (first.ends_at_events and self._straight and 0.0 < part < first.part):
+            return []
+        cut = self._on_first_piece(part, quiet=QuietEnd(leads=(0.0, 0.0), trials=()), passes=True, increment=False)
+        state = leg.segment.pieces[1].state
+        assert state is not None
+        rest = states_between(first.system, state.state, (cut.h, cut.r), (first.h, first.r))
+        return [cut, replace(first, states=rest)]
+
+    def _on_first_piece(self, part: float, **parts: Any) -> TapePoint:
+        """A point in the middle of the first piece, a part of the leg behind its beginning.
+
+        On a path that is linear, that is the beginning itself, with pairs in the states of the piece while nothing
+        moves or presses yet: what those that slip from there on have moved by then changes with gaps, and friction
+        takes no work from that.
         """
         first, leg = self.points[0], self.legs[0]
-        if not self.pairs.any() or not first.on_linear_path:
-            return []
-        none = np.zeros_like(first.h)
         assert leg.start is not None
-        return [
-            replace(
-                first,
-                load=first.system.posed(leg.before.point),
-                load_factor=leg.low,
-                part=0.0,
-                h=leg.start.h,
-                r=none,
-                h_rate=None,
-                r_rate=None,
-                load_rate=None,
-                acting=np.zeros(0, dtype=np.int64),
-                quiet=None,
-                trials=(),
-                at_rest=True,
-            )
-        ]
+        share = part / first.part
+        point = replace(
+            first,
+            load=first.system.posed(leg.before.point.towards(leg.end, part) if part else leg.before.point),
+            load_factor=leg.low + part * (leg.high - leg.low),
+            part=part,
+            h=leg.start.h + share * (first.h - leg.start.h),
+            r=share * first.r,
+            acting=np.zeros(0, dtype=np.int64),
+            acts=None,
+            quiet=None,
+            trials=(),
+        )
+        return replace(point, **parts) if part else replace(point, h_rate=None, r_rate=None, load_rate=None, **parts)
+
+    @property
+    def _straight(self) -> bool:
+        """Whether motions and forces of the first piece are in proportion to the part of the leg."""
+        first, leg = self.points[0], self.legs[0]
+        assert leg.start is not None
+        assert first.rates is not None
+        moved = first.h - leg.start.h, first.r
+        return all(
+            np.abs(all_of_it - first.part * rate).max() <= _STRAIGHT * max(np.abs(part).max() for part in moved)
+            for all_of_it, rate in zip(moved, first.rates, strict=True)
+        )
 
     @cached_property
     def pairs(self) -> BoolArray:
@@ -191,31 +241,46 @@ class TouchingStart:
         InputError
             Where the path with other gaps is not known.
         """
+        return self._changes(rate)[0]
+
+    def friction(self, rate: GapRate) -> Array:
+        """(d - 1, n) Friction of pairs that press at once, on smooth cones, force per unit of a change of gaps.
+
+        Raises
+        ------
+        InputError
+            Where the path with other gaps is not known.
+        """
+        return self._changes(rate)[1]
+
+    def _changes(self, rate: GapRate) -> Array:
+        """(2, d - 1, n) What changes of gaps make of tangential motions and forces before the first point, per unit."""
         assert rate.gap is not None
         gap = np.where(self.moved(rate), rate.gap, 0.0)  # what pairs that are apart do has events of its own
         size = float(np.abs(gap).max())
         alike = GapRate(gap=gap / size, B=None if rate.B is None else rate.B / size)
         if alike.B is not None:
-            return size * self._memory(alike)
+            return size * self._of_largest(alike)
         key = (gap / size).tobytes()
         if key not in self._known:
-            self._known[key] = self._memory(alike)
+            self._known[key] = self._of_largest(alike)
         return size * self._known[key]
 
-    def _memory(self, rate: GapRate) -> Array:
-        """See `memory`, of a change of gaps whose largest is 1."""
+    def _of_largest(self, rate: GapRate) -> Array:
+        """See `_changes`, of a change of gaps whose largest is 1."""
         assert rate.gap is not None
         first, leg = self.points[0], self.legs[0]
         system = first.system
         assert leg.start is not None
         assert leg.segment is not None
-        if first.on_linear_path and not (leg.start.r.any() or first.quiet):
+        known = first.on_linear_path and not first.quiet
+        if (known or self._beginning or first.passes) and not leg.start.r.any():
             way = _UNTIL * first.part * (leg.segment.end.b - leg.start.b)
             size = float(np.abs(way).max()) / float(np.abs(system.root * rate.gap[system.active]).max())
             found = (self._per_share(part * size, rate, way) for part in _PARTS)
             large, small = islice(chain(dropwhile(lambda moved: moved is None, found), (None, None)), 2)
             # where a body is carried by a length, however small the change, motions are in no proportion to it
-            if large is not None and small is not None and _in_proportion(large, small):
+            if large is not None and small is not None and _in_proportion(large[0], small[0]):
                 return large
         raise InputError(
             "pairs touch without a force where the history begins: what the history does is not known where their gaps "
@@ -223,24 +288,43 @@ class TouchingStart:
         )
 
     def _per_share(self, share: float, rate: GapRate, way: Array) -> Array | None:
-        """(d - 1, n) The same from a share of a change; None where pairs do not come to the states of the first piece.
+        """(2, d - 1, n) The same from a share of a change; None where it is not known.
+
+        On paths that are linear, where pairs have come to the states of the first piece; on smooth cones at once.
 
         Parameters
         ----------
         share, rate : of the change, and the change
         way : (d a,) what the load grows by until motions are compared, scaled
         """
-        first, system, start = self.points[0], self.points[0].system, self.legs[0].start
-        segment = self._followed(share, rate, way)
-        if segment is None or start is None or not self._same(segment, first):
+        first, system, begun = self.points[0], self.points[0].system, self._begun(share, rate)
+        start, found = self.legs[0].start, np.zeros((2, system.directions - 1, len(system.condensed.active)))
+        if begun is None or start is None:
+            return None
+        if not first.on_linear_path:
+            found[0][:, system.active] = (begun[1].h - start.h)[1:] / (share * system.root)
+            found[1][:, system.active] = begun[1].r[1:] * system.root / share
+            return found
+        segment = self._followed(*begun, way)
+        if segment is None or not self._same(segment, first):
             return None
         h = start.h + _UNTIL * (first.h - start.h)
-        found = np.zeros((system.directions - 1, len(system.condensed.active)))
-        found[:, system.active] = (segment.end.h - h)[1:] / (share * system.root)
+        found[0][:, system.active] = (segment.end.h - h)[1:] / (share * system.root)
         return found
 
-    def _followed(self, share: float, rate: GapRate, way: Array) -> Segment | None:
-        """The path with a share of a change; None where there is none. Bodies that nothing holds are carried first."""
+    def _followed(self, prepared: Prepared, start: PathState, way: Array) -> Segment | None:
+        """The path from a start, (d a,) a way on; None where there is none."""
+        try:
+            found = prepared.paths.follow(start, start.b + way, None, lambda _: None)
+        except (SolveFailed, InputError):
+            return None
+        return found if found.followed else None
+
+    def _begun(self, share: float, rate: GapRate) -> tuple[Prepared, PathState] | None:
+        """The model with a share of a change, and its state before anything is loaded; None where that is not known.
+
+        Bodies that nothing holds are carried first.
+        """
         leg, prepared, gap = self.legs[0], self.legs[0].prepared, share * np.asarray(rate.gap)
         before = replace(
             leg.before, gap=leg.before.gap + gap, point=replace(leg.before.point, gap=leg.before.point.gap + gap)
@@ -259,11 +343,9 @@ class TouchingStart:
             if resting(part) is not part:
                 return None
             carried = approached(part, relieving=True)
-            start = path_state(prepared, before if carried is None else carried.after)
-            found = prepared.paths.follow(start, start.b + way, None, lambda _: None)
+            return prepared, path_state(prepared, before if carried is None else carried.after)
         except (SolveFailed, InputError):
             return None
-        return found if found.followed else None
 
     def _same(self, segment: Segment, first: TapePoint) -> bool:
         """Whether pairs end in the states of the first piece."""

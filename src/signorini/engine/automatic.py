@@ -25,6 +25,9 @@ from signorini.engine.step_parts import FollowedPart, StepPart
 from signorini.errors import SolveFailed, told
 from signorini.outcome import Outcome
 
+MORE_IN_SPACE = 4
+"""Times as many increments are tried next in space, unless the law holds all along those that were tried."""
+
 _CERTAIN = 16  # increments on a way in space of which it is believed that it jumps, or that it does not
 _VAIN = 16  # times as many increments, that change the answer no less: it does not settle
 _LOST = 4  # times the number that is enough: the most that are tried where a way in space is lost
@@ -61,9 +64,10 @@ def follow_automatically(
     prepared = part.prepared
     changes, number, tried, why = "the answer, where one is found", 1, 1, ""
     seen: dict[int, float] = {}
-    more, fewer = (2, "half as many") if prepared.interface.directions == 2 else (4, "a quarter as many")
+    plane = prepared.interface.directions == 2
+    more, fewer = (2, "half as many") if plane else (MORE_IN_SPACE, "a quarter as many")
     limit = prepared.settings.automatic_increments
-    most = limit if enough is None or prepared.interface.directions == 2 else _LOST * enough
+    most = limit if enough is None or plane else _LOST * enough
     while number <= limit:
         tried = number
         try:

@@ -168,4 +168,5 @@ class PathFollower(ABC):
             residual=self.residual,
             message=message,
             spent=tuple(dict.fromkeys(self.spent)),
+            shortest=self.settings.shortest,
         )

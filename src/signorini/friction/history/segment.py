@@ -109,6 +109,7 @@ class Segment:
     residual : largest of the certificates, relative to the data, see `signorini.friction.certify`
     message : the same in words
     spent : searches on the way that ended at their budgets
+    shortest : see `PathSettings`
     """
 
     end: PathState
@@ -122,6 +123,7 @@ class Segment:
     residual: float
     message: str
     spent: tuple[Spent, ...] = ()
+    shortest: float = 0.0
 
     @property
     def followed(self) -> bool:
