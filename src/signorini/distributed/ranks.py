@@ -40,6 +40,7 @@ class Team:
     held : what this rank keeps for the first one, by number
     code : exit code that the first rank leaves with
     away : on the first rank: arrays that all of them keep, as long as somebody has them
+    lent : on the first rank: meshes that nobody but the run has, so that ranks may keep them
     owners : on the first rank: (n,) rank of each node of every mesh that was cut, as long as somebody has the mesh
     """
 
@@ -50,6 +51,7 @@ class Team:
         self.code = 0
         self.owners: weakref.WeakKeyDictionary[Any, Any] = weakref.WeakKeyDictionary()
         self.away: weakref.WeakSet[Any] = weakref.WeakSet()
+        self.lent: weakref.WeakSet[Any] = weakref.WeakSet()
         self.together = self.size == 1
         self._numbers = itertools.count()
         self._dropped: list[int] = []
