@@ -8,7 +8,7 @@ import pytest
 from signorini.arrays import stored
 from signorini.distributed import kept_rows, mesh_rows
 from signorini.distributed.kept_rows import RowsKept
-from signorini.distributed.mesh_rows import lend, let_go
+from signorini.distributed.mesh_rows import at_hand, lend, let_go
 from signorini.fem.space import make_space
 from signorini.gallery.cubes import cubes
 from signorini.model.mesh import Mesh
@@ -57,6 +57,11 @@ def test_a_mesh_that_is_lent_is_with_the_ranks_and_the_same(team):
     np.testing.assert_array_equal(mesh.places_of(nodes), same.points[nodes])
     np.testing.assert_array_equal(space.blocks[0].cells, same.cells["hexahedron"])
     np.testing.assert_array_equal(mesh.extent, same.extent)
+    with at_hand(mesh, space.blocks):
+        assert all(isinstance(stored(each, "cells"), np.ndarray) for each in space.blocks)
+        assert digest(stored(mesh, "points")) == digest(same.points)
+    assert stored(mesh, "points") is here[0]
+    assert stored(space.blocks[0], "cells") is here[-1]
     for each in tuple(team.away):
         each.come_home()
     team.kept_by_rank.clear()

@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from types import MappingProxyType
 from typing import Any
 
 from signorini.arrays import IntArray, stored
 from signorini.distributed.kept_rows import put_away
 from signorini.distributed.ranks import several_ranks
-from signorini.fem.space import Space
+from signorini.fem.space import Block, Space
 from signorini.model.mesh import Mesh
 
 
@@ -40,6 +41,31 @@ class ArraysKept(Mapping[str, Any]):
         return len(self._kept)
 
 
+_ALONE, _NAMED = ("points", "node_numbers", "cell_numbers"), ("cells", "bodies")
+
+
+@contextmanager
+def at_hand(mesh: Mesh, blocks: Sequence[Block] = ()) -> Iterator[None]:
+    """All of a mesh on the first rank, where parts of it are sent: ranks that wait for theirs cannot be asked.
+
+    Parameters
+    ----------
+    mesh, blocks : the mesh, and blocks of its space if they are asked for too
+    """
+    kept = {name: stored(mesh, name) for name in (*_ALONE, *_NAMED)}
+    rows = [stored(block, "cells") for block in blocks]
+    for name in kept:
+        vars(mesh)[name] = getattr(mesh, name)
+    for block in blocks:
+        vars(block)["cells"] = mesh.cells[block.family]
+    try:
+        yield
+    finally:
+        vars(mesh).update(kept)
+        for block, cells in zip(blocks, rows, strict=True):
+            vars(block)["cells"] = cells
+
+
 def lend(mesh: Mesh) -> None:
     """Let ranks have a mesh of which nobody but this run asks anything, once it was cut.
 
@@ -64,10 +90,10 @@ def let_go(space: Space) -> None:
         return
     team.lent.remove(mesh)
     assert mesh.extent.size  # it is asked for again and again, and known from now on
-    for name in ("points", "node_numbers", "cell_numbers"):
+    for name in _ALONE:
         if stored(mesh, name) is not None:
             vars(mesh)[name] = put_away(stored(mesh, name))
-    for name in ("cells", "bodies"):
+    for name in _NAMED:
         vars(mesh)[name] = ArraysKept(stored(mesh, name))
     for block in space.blocks:
         vars(block)["cells"] = stored(mesh, "cells")[block.family]

@@ -12,7 +12,7 @@ from signorini.arrays import BoolArray, among
 from signorini.distributed.bodies import RowsOnRanks, make_bodies_on_ranks
 from signorini.distributed.constraints import ConstraintsOnRanks
 from signorini.distributed.direct import MatrixOnRanks
-from signorini.distributed.mesh_rows import let_go
+from signorini.distributed.mesh_rows import at_hand, let_go
 from signorini.distributed.ranks import MUMPS, PETSC, the_team
 from signorini.distributed.refusals import refuse_without_mumps
 from signorini.distributed.room import room_for
@@ -98,11 +98,12 @@ def solver_on_ranks(
     """
     constraints, interface, space = examined.constraints, examined.interface, examined.space
     known = constraints if isinstance(constraints, ConstraintsOnRanks) else None
-    rows = _rows(examined, K) if known is None else known.rows
-    space.forget("facets", "facets_at_boundaries", "volumes", "used", "used_nodes")
-    B = sp.csr_array(interface.B @ constraints.transform)
-    bodies = make_bodies_on_ranks(rows, space.mesh.points, B, interface, candidates)
-    there = known or ConstraintsOnRanks.of(constraints, rows, examined.rigid)
+    with at_hand(space.mesh, space.blocks):
+        rows = _rows(examined, K) if known is None else known.rows
+        space.forget("facets", "facets_at_boundaries", "volumes", "used", "used_nodes")
+        B = sp.csr_array(interface.B @ constraints.transform)
+        bodies = make_bodies_on_ranks(rows, space.mesh.points, B, interface, candidates)
+        there = known or ConstraintsOnRanks.of(constraints, rows, examined.rigid)
     examined.rigid.forget()
     digest(examined.model.mesh)  # checkpoints know the mesh by it
     let_go(space)
