@@ -21,6 +21,9 @@ class RanksInTurn:
     def kept(self, _owner):
         return next(self._numbers)
 
+    def soon(self, work, *given):
+        self.everywhere(work, *given)
+
     def everywhere(self, work, *given, pieces=None):
         found = []
         for rank, own in enumerate(((),) * self.size if pieces is None else ((piece,) for piece in pieces)):
