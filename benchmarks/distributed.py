@@ -27,6 +27,7 @@ import numpy as np
 
 import signorini as sg
 from benchmarks import command, page
+from signorini.distributed.mesh_rows import lend
 from signorini.distributed.ranks import Team, the_team
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
@@ -37,6 +38,7 @@ from signorini.output.folder import write_folder
 RANKS = (1, 2, 4)
 INCREMENTS = 4, 12  # between which the growth of a history is measured
 MANY = 12  # ranks on which what the first one holds of the whole mesh outweighs its own share
+LARGE = 24, 21  # cells of cubes whose size parts that are made some cells at a time do not depend on
 PAGE = page.PAGE.parent / "distributed.md"
 ROOT_AND_FEW_CORES = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
@@ -108,13 +110,15 @@ def traced(team: Team) -> tuple[int, int]:
 
 
 def held(lower: int, upper: int) -> dict[str, Any]:
-    """What the first rank and the others hold of a model and its results, bytes a node."""
+    """What the first rank and the others hold of a model and its results, bytes a node; the mesh is lent to them."""
     team = the_team()
     with tempfile.TemporaryDirectory() as folder:
         solve_prepared(prepare(cubes(2, 2), backend="petsc"))  # what is loaded and compiled once
         write_folder(solve_prepared(prepare(cubes(2, 2), backend="petsc")), Path(folder, "small"))
         before = team.everywhere(traced)
         model = cubes(lower, upper)
+        nodes = model.mesh.number_of_nodes
+        lend(model.mesh)
         prepared = prepare(model, backend="petsc")
         made = team.everywhere(traced)
         history = solve_prepared(prepared)
@@ -122,7 +126,6 @@ def held(lower: int, upper: int) -> dict[str, Any]:
         solved = team.everywhere(traced)
         write_folder(history, Path(folder, "large"))
         written = team.everywhere(traced)
-    nodes = len(model.mesh.points)
 
     def first_and_others(now: list[tuple[int, int]], what: int, beside: list[tuple[int, int]]) -> list[float]:
         found = [(one[what] - other[0]) / nodes for one, other in zip(now, beside, strict=True)]
@@ -232,6 +235,7 @@ def main() -> None:
     if options.memory:
         sizes = ((5, 4),) if options.small else ((8, 7), (14, 12))
         runs = [*((ranks, size) for size in sizes for ranks in RANKS), (MANY, sizes[-1])]
+        runs += [] if options.small else [(RANKS[-1], LARGE), (MANY, LARGE)]
         rows = [memory_row(ranks, on_ranks(ranks, size, "--memory")) for ranks, size in runs]
         command.publish(options, "memory of ranks", page.table(MEMORY_HEAD, rows), PAGE)
         return

@@ -41,7 +41,8 @@ class _MaybeElsewhere:
 
     def __get__(self, data: Any, _kind: Any = None) -> Any:
         value = self if data is None else vars(data)[self._name]
-        return value if value is None or isinstance(value, np.ndarray | _MaybeElsewhere) else value.whole()
+        whole = None if data is None else getattr(value, "whole", None)
+        return value if whole is None else whole()
 
     def __set__(self, data: Any, value: Any) -> None:
         vars(data)[self._name] = value

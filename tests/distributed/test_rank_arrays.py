@@ -146,7 +146,7 @@ def sums(prepared):
     certificate = measured(prepared, state)
     held = constraints.support_forces(state.nodal[1] - loads)
     borne = reactions(prepared.model, prepared.space, constraints, u, held)
-    balance = constraints.resultants(prepared.motions, state.nodal[1] + constraints.foundation_forces(u))
+    balance = constraints.resultants(prepared.rigid, state.nodal[1] + constraints.foundation_forces(u))
     there = {isinstance(each, ArrayOnRanks) for each in (u, held, *state.nodal, constraints.on_free(held))}
     assert there == {prepared.backend == "petsc"} or len(constraints.dependent)
     return {

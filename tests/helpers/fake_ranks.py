@@ -11,7 +11,7 @@ class RanksInTurn:
     def __init__(self, size):
         self.size, self.rank, self.together = size, 0, True
         self.kept_by_rank = [{} for _ in range(size)]
-        self.owners, self.away = weakref.WeakKeyDictionary(), weakref.WeakSet()
+        self.owners, self.away, self.lent = weakref.WeakKeyDictionary(), weakref.WeakSet(), weakref.WeakSet()
         self._numbers = itertools.count()
 
     @property
@@ -20,6 +20,9 @@ class RanksInTurn:
 
     def kept(self, _owner):
         return next(self._numbers)
+
+    def soon(self, work, *given):
+        self.everywhere(work, *given)
 
     def everywhere(self, work, *given, pieces=None):
         found = []

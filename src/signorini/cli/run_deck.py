@@ -21,6 +21,7 @@ from signorini.cli.progress import progress
 from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.deck.keys import check_keys
+from signorini.distributed.mesh_rows import lend
 from signorini.engine.condensation import refuse_unknown
 from signorini.engine.first_run import FIRST_SOLVE, compiles_first
 from signorini.engine.solve import solve
@@ -176,6 +177,7 @@ def _solve(
     )
     try:
         if accuracy is None:
+            lend(deck.model.mesh)
             return follow(deck.model, after_step=after_step)
         from signorini.accuracy.refine import accurate, refuse_one_mesh  # not before an accuracy is asked for
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
@@ -17,6 +17,7 @@ from signorini.distributed.parts import AskedOfPairs, RowsOfBodies, answer_pairs
 from signorini.distributed.rank_arrays import ArrayOnRanks, Cut
 from signorini.distributed.ranks import PETSC
 from signorini.distributed.stiffness import StiffnessOnRanks
+from signorini.fem.rigid_motions import RigidMotions
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.active import with_supple
@@ -26,6 +27,7 @@ from signorini.iterative.bodies import arms, near_null
 from signorini.iterative.pairs import IteratedPairs, chosen_pairs
 from signorini.iterative.pressed import IncrementLoad
 from signorini.law.result import ContactAnswer
+from signorini.sparse_rows import chosen_columns, transposed
 
 
 class RowsOnRanks:
@@ -36,7 +38,6 @@ class RowsOnRanks:
     team : the ranks
     number : under which they hold them
     stiffness : pieces on the ranks
-    transform : (dofs, z) displacements of the free ones
     blocks : of the unknowns, those of the first rank first
     ends : (ranks + 1,) where the unknowns of the ranks begin and end
     centres : (ranks, d) of the nodes of every rank, length
@@ -45,29 +46,28 @@ class RowsOnRanks:
     ----------
     K : pieces on the ranks
     space, constraints : of the bodies
-    rigid : (z, k) rigid motions of all parts
+    rigid : motions of all parts
     """
 
-    def __init__(self, K: StiffnessOnRanks, space: Space, constraints: Constraints, rigid: sp.csr_array) -> None:
+    def __init__(self, K: StiffnessOnRanks, space: Space, constraints: Constraints, rigid: RigidMotions) -> None:
         self.team, self.number, self.stiffness = K.team, K.team.kept(self), K
-        self.transform = constraints.transform
-        d = space.components
-        known, index = np.unique(constraints.nodes, return_inverse=True)
+        d, nodes = space.components, constraints.nodes
+        new = np.append(True, nodes[1:] != nodes[:-1])[: len(nodes)]  # they ascend
+        known, index = nodes[new], np.cumsum(new, dtype=index_type(len(nodes))) - 1
         owner, points = K.owner_of(known), space.mesh.points
-        block = np.empty(len(known), dtype=np.int64)
+        block = np.empty(len(known), dtype=index_type(d * len(known)))
         block[np.argsort(owner, kind="stable")] = np.arange(len(known))
-        axis = constraints.leaders % d
-        place = (d * block[index] + axis).astype(index_type(d * len(known)))
+        axis = (constraints.leaders % d).astype(np.int8)
+        place = d * block[index] + axis
         self.blocks = Blocks(size=d, count=len(known), place=place)
         self.ends = d * np.concatenate([[0], np.cumsum(np.bincount(owner, minlength=self.team.size))])
-        nodes = np.bincount(K.owner, minlength=self.team.size)
-        self.centres = np.stack([np.bincount(K.owner, x, self.team.size) for x in points.T], axis=1) / nodes[:, None]
-        arm = arms(points, constraints.nodes)
-        self.team.everywhere(
-            hold_bodies, K.number, self.number, pieces=self._rows(constraints.transform, arm, axis, rigid)
-        )
+        count = np.bincount(K.owner, minlength=self.team.size)
+        self.centres = np.stack([np.bincount(K.owner, x, self.team.size) for x in points.T], axis=1) / count[:, None]
+        arm = _ArmsOfUnknowns(arms(points, known), index, axis)
+        pieces = self._rows(constraints.transform, arm, rigid)
+        self.team.everywhere(hold_bodies, K.number, self.number, pieces=pieces)
 
-    def _rows(self, transform: sp.csr_array, arm: Array, axis: IntArray, rigid: sp.csr_array) -> Iterator[RowsOfBodies]:
+    def _rows(self, transform: sp.csr_array, arm: _ArmsOfUnknowns, rigid: RigidMotions) -> Iterator[RowsOfBodies]:
         d, place = self.blocks.size, self.blocks.place
         for rank, dofs in enumerate(self.stiffness.dofs):
             first, last = (int(end) for end in self.ends[rank : rank + 2])
@@ -75,10 +75,11 @@ class RowsOnRanks:
             columns = np.unique(np.concatenate([moved.indices, np.flatnonzero((place >= first) & (place < last))]))
             numbered = np.searchsorted(columns, moved.indices)
             own = np.flatnonzero((place >= first) & (place < last))
-            near = near_null(arm[own], axis[own], d)
+            near = near_null(arm.of_nodes[arm.node[own]], arm.axis[own], d)
             spread = np.zeros((last - first, near.shape[1]))
             spread[place[own] - first] = near
-            motions = rigid[own].tocoo()
+            follow = transposed(chosen_columns(transform, own))
+            motions = sp.coo_array(follow @ rigid.seen_by(follow.indices))
             yield RowsOfBodies(
                 transform=sp.csr_array((moved.data, numbered, moved.indptr), shape=(len(dofs), len(columns))),
                 place=place[columns],
@@ -89,7 +90,7 @@ class RowsOnRanks:
                 d=d,
                 near_null=spread,
                 rigid=sp.csr_array(
-                    (motions.data, (place[own][motions.row] - first, motions.col)), shape=(last - first, rigid.shape[1])
+                    (motions.data, (place[own][motions.row] - first, motions.col)), (last - first, motions.shape[1])
                 ),
             )
 
@@ -118,6 +119,20 @@ class RowsOnRanks:
         pair = np.repeat(np.arange(columns.shape[0]) % max(len(at), 1), np.diff(columns.indptr))
         shape = (len(at), self.team.size)
         return pair_owners(sp.csr_array((np.ones(len(pair)), (pair, rank)), shape=shape), at, self.centres)
+
+
+class _ArmsOfUnknowns(NamedTuple):
+    """Where free displacements are and what their direction is, for motions that hardly need a force.
+
+    Attributes
+    ----------
+    of_nodes : (k, d) arms of the nodes that have any, see `signorini.iterative.bodies.arms`
+    node, axis : (z,) of every free displacement the one of these nodes, and its direction
+    """
+
+    of_nodes: Array
+    node: IntArray
+    axis: IntArray
 
 
 class PairsHeld:

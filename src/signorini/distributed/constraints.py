@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -16,38 +16,55 @@ from signorini.distributed.bodies import RowsOnRanks
 from signorini.distributed.multigrid import matrix
 from signorini.distributed.rank_arrays import ArrayOnRanks, Cut, Remembered
 from signorini.distributed.ranks import Team
-from signorini.fem.supports import Constraints
+from signorini.fem.rigid_motions import RigidMotions
+from signorini.fem.supports import Constraints, Motions, transform_of
+from signorini.sparse_rows import chosen_rows, transposed
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ConstraintsOnRanks(Constraints):
     """Constraints by which vectors of all displacements are on the ranks, and are computed with there.
 
-    What is asked of an array that is here is answered here, as by `Constraints`.
+    What is asked of an array that is here is answered here, as by `Constraints`; the transform is made anew for it.
 
     Attributes
     ----------
     rows : the bodies
     moved : what every rank knows of its share
-    remembered : loads, and what supports prescribe, as ranks have them
+    followed : (dofs,) free displacements that no other dof follows
+    remembered : forces and offsets of supports that change, as ranks have them
     """
 
     rows: RowsOnRanks
     moved: MotionsHeld
+    followed: Any
     remembered: Remembered
 
     @staticmethod
-    def of(constraints: Constraints, rows: RowsOnRanks, motions: sp.csr_array) -> ConstraintsOnRanks:
+    def of(constraints: Constraints, rows: RowsOnRanks, rigid: RigidMotions) -> ConstraintsOnRanks:
         """Of bodies whose rows are on the ranks.
 
         Parameters
         ----------
         constraints, rows : what supports hold, and the bodies under them
-        motions : (dofs, k) rigid motions of all parts
+        rigid : motions of all parts
         """
-        given = {field.name: getattr(constraints, field.name) for field in fields(Constraints)}
-        held = MotionsHeld(rows, constraints, motions)
-        return ConstraintsOnRanks(**given, rows=rows, moved=held, remembered=Remembered())
+        vectors, unknowns = rows.stiffness.vectors, rows.unknowns
+        free, few = vectors.of(constraints.free), (constraints.dependent, constraints.shares)
+        return ConstraintsOnRanks(
+            free=free,  # type: ignore[arg-type]
+            transform=_TransformMade(free, unknowns.size, *few),
+            prescribed={name: vectors.of(u) for name, u in constraints.prescribed.items()},  # type: ignore[misc]
+            springs=constraints.springs,
+            owner=vectors.of(constraints.owner),  # type: ignore[arg-type]
+            nodes=unknowns.of(constraints.nodes),  # type: ignore[arg-type]
+            dependent=few[0],
+            shares=few[1],
+            rows=rows,
+            moved=MotionsHeld(rows, constraints, rigid),
+            followed=vectors.of(constraints.alone),
+            remembered=Remembered(),
+        )
 
     @property
     def zeros(self) -> Any:
@@ -62,10 +79,20 @@ class ConstraintsOnRanks(Constraints):
         """(dofs,) Values at some dofs (k,), zero elsewhere, on the ranks."""
         return self.rows.stiffness.vectors.spread(dofs, values)
 
-    @cached_property
+    @property
     def alone(self) -> Any:
         """(dofs,) Free displacements that no other dof follows, on the ranks."""
-        return self.rows.stiffness.vectors.of(super().alone)
+        return self.followed
+
+    @cached_property
+    def held(self) -> Any:
+        """(dofs,) Whether a support, the axis or nothing at all holds the dof, on the ranks."""
+        return self.free == -1
+
+    @property
+    def _transposed(self) -> sp.csc_array:
+        """Not kept, for forces that are here."""
+        return transposed(self.transform)
 
     def displaced(self, free: Any) -> Any:
         """(dofs,) Displacements by free ones (z,) alone."""
@@ -85,10 +112,10 @@ class ConstraintsOnRanks(Constraints):
             return super().free_of(displacement)
         return self.rows.unknowns.made(_free_of, self.rows.stiffness.vectors.of(displacement), self.moved.number)
 
-    def resultants(self, motions: sp.csr_array, forces: Any) -> Array:
-        """(k,) Work of forces (dofs,) on rigid motions (dofs, k)."""
-        if not isinstance(forces, ArrayOnRanks) or motions is not self.moved.motions:
-            return super().resultants(motions, forces)
+    def resultants(self, rigid: Motions, forces: Any) -> Array:
+        """(k,) Work of forces (dofs,) on k rigid motions."""
+        if not isinstance(forces, ArrayOnRanks) or rigid is not self.moved.rigid:
+            return super().resultants(rigid, forces)
         given = self.rows.stiffness.vectors.of(forces)
         return np.asarray(sum(self.rows.team.everywhere(_resultants, given.number, self.moved.number)))
 
@@ -106,23 +133,40 @@ class ConstraintsOnRanks(Constraints):
         return self.spread(seen, sum((-(S.T @ (S @ near)) for S in springs), np.zeros(len(seen))))
 
 
+class _TransformMade:
+    """The transform of constraints, made of what ranks know for whoever asks for it, and not kept.
+
+    Parameters
+    ----------
+    free : (dofs,) on the ranks
+    count, dependent, shares : as of `signorini.fem.supports.transform_of`
+    """
+
+    def __init__(self, free: ArrayOnRanks, count: int, dependent: IntArray, shares: sp.csr_array) -> None:
+        self._free, self._few = free, (count, dependent, shares)
+
+    def whole(self) -> sp.csr_array:
+        """(dofs, z)."""
+        return transform_of(self._free.whole(), *self._few)  # type: ignore[arg-type]
+
+
 class MotionsHeld:
     """What ranks know of how their own displacements follow from the free ones, until nobody asks for it.
 
     Attributes
     ----------
     number : under which they hold it
-    motions : (dofs, k) rigid motions of all parts
+    rigid : motions of all parts
 
     Parameters
     ----------
-    rows, constraints, motions : as of `ConstraintsOnRanks.of`
+    rows, constraints, rigid : as of `ConstraintsOnRanks.of`
     """
 
-    def __init__(self, rows: RowsOnRanks, constraints: Constraints, motions: sp.csr_array) -> None:
-        self.number, self.motions = rows.team.kept(self), motions
+    def __init__(self, rows: RowsOnRanks, constraints: Constraints, rigid: RigidMotions) -> None:
+        self.number, self.rigid = rows.team.kept(self), rigid
         cuts = rows.stiffness.vectors, rows.unknowns
-        pieces = _own_motions(rows, cuts, constraints, motions)
+        pieces = _own_motions(rows, cuts, constraints, rigid)
         rows.team.everywhere(_hold, rows.number, self.number, pieces=pieces)
 
 
@@ -142,7 +186,7 @@ class _OwnMotions(NamedTuple):
 
 
 def _own_motions(
-    rows: RowsOnRanks, cuts: tuple[Cut, Cut], constraints: Constraints, motions: sp.csr_array
+    rows: RowsOnRanks, cuts: tuple[Cut, Cut], constraints: Constraints, rigid: RigidMotions
 ) -> Iterator[_OwnMotions]:
     """Of every rank; ``cuts`` are those of all displacements and of the free ones."""
     d = rows.blocks.size
@@ -151,7 +195,7 @@ def _own_motions(
         yield _OwnMotions(
             transform=rows.blocks.columns(sp.csr_array(constraints.transform[own])),
             leaders=np.searchsorted(own, leaders[free]).astype(np.int32),
-            motions=sp.csr_array(motions[own]),
+            motions=chosen_rows(rigid.seen_by(own), own),
         )
 
 

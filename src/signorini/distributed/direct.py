@@ -38,19 +38,22 @@ class MatrixOnRanks:
     Attributes
     ----------
     on_ranks : the bodies
+    transform : (dofs, z) displacements of the free ones
     springs : (z,) on the diagonal, beside the bodies
     border : (m, z) rows B of the border
     """
 
     on_ranks: RowsOnRanks
+    transform: sp.csr_array
     springs: Array
     border: sp.csr_array
 
     @staticmethod
-    def of(on_ranks: RowsOnRanks) -> MatrixOnRanks:
-        """The bodies without springs or border."""
+    def of(on_ranks: RowsOnRanks, transform: sp.csr_array) -> MatrixOnRanks:
+        """The bodies without springs or border; ``transform`` as above."""
         z = len(on_ranks.blocks.place)
-        return MatrixOnRanks(on_ranks=on_ranks, springs=np.zeros(z), border=sp.csr_array((0, z)))
+        none = sp.csr_array((0, z))
+        return MatrixOnRanks(on_ranks=on_ranks, transform=transform, springs=np.zeros(z), border=none)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -226,7 +229,7 @@ class FactorsHeld:
         x = self.solved(load)
         if not np.isfinite(x).all():
             raise NotPositiveDefinite(int(np.argmin(np.isfinite(x))))
-        u = self.matrix.on_ranks.transform @ x
+        u = self.matrix.transform @ x
         size = float(np.abs(u) @ (abs(self.matrix.on_ranks.stiffness) @ u) + self.matrix.springs @ x**2)
         if float(x @ load) <= ROUNDOFF * size:
             raise NotPositiveDefinite(int(np.argmax(np.abs(x))))

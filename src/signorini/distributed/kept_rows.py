@@ -86,6 +86,17 @@ class RowsKept:
         result.flags.writeable = False
         return result
 
+    def __getitem__(self, numbers: IntArray) -> Array:
+        """(k, ...) Some rows, by their numbers (k,) in any order."""
+        if self._home is not None:
+            return self._home[numbers]
+        rank, result = np.searchsorted(self._ends, numbers, side="right") - 1, np.empty((len(numbers), *self.shape[1:]))
+        own = [np.flatnonzero(rank == r) for r in range(self._team.size)]
+        pieces = (numbers[here] - first for here, first in zip(own, self._ends, strict=False))
+        for here, rows in zip(own, self._team.everywhere(_chosen, self._number, pieces=pieces), strict=True):
+            result[here] = rows
+        return result.astype(self.dtype, copy=False)
+
     def come_home(self) -> None:
         """Fetch all of it, for ranks that will not be asked again."""
         self._home = self.whole()
@@ -140,6 +151,12 @@ def give(team: Team, number: int, rank: int) -> Array | None:
     """
     found: Array = team.held[number]
     return found if team.rank == rank else None
+
+
+def _chosen(team: Team, numbers: IntArray, number: int) -> Array:
+    """Rows of this rank's share."""
+    found: Array = team.held[number][numbers]
+    return found
 
 
 def _gather(team: Team, number: int, entries: int, ends: IntArray, row: tuple[int, ...], kept: int) -> None:

@@ -41,7 +41,7 @@ def owners(space: Space, B: sp.csr_array, ranks: int) -> IntArray:
     """
     count = len(space.mesh.points)
     if ranks == 1:
-        return np.zeros(count, dtype=np.int64)
+        return np.zeros(count, dtype=np.int32)
     sizes = np.concatenate([[0], *(np.full(len(block.cells), block.cells.shape[1]) for block in space.blocks)])
     corners = np.concatenate([block.cells.astype(np.int32).ravel() for block in space.blocks])
     indptr, indices = node_pattern(np.cumsum(sizes), corners, count)
@@ -54,7 +54,7 @@ def owners(space: Space, B: sp.csr_array, ranks: int) -> IntArray:
     graph.eliminate_zeros()
     neighbours = pymetis.CSRAdjacency(graph.indptr, graph.indices)
     own = pymetis.part_graph(ranks, neighbours, vweights=entries.tolist())[1]
-    owner = np.asarray(own, dtype=np.int64)
+    owner = np.asarray(own, dtype=np.int32)
     least = int(np.bincount(owner[space.used_nodes], minlength=ranks).min())
     if least == 0:
         raise InputError(f"{count} nodes are too few for {ranks} ranks: one would own none; expected fewer ranks")

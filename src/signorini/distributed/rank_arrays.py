@@ -69,21 +69,18 @@ class Cut:
         self.team.everywhere(_spread, self.number, found.number, pieces=pieces)
         return found
 
-    def made(self, work: Callable[..., Any], *given: Any) -> ArrayOnRanks:
+    def made(self, work: Callable[..., Any], *given: Any, dtype: Any = np.float64) -> ArrayOnRanks:
         """What a function makes on every rank of what is given, entries of arrays on ranks among it.
 
         Parameters
         ----------
         work : ``work(team, *given)``, a function of a module
         given : its arguments
+        dtype : of what it makes
         """
-        number = self.team.kept(owner := _Owner())
-        (dtype, *_) = self.team.everywhere(_made, number, work, tuple(_reference(each) for each in given))
-        return ArrayOnRanks(self, dtype, number, owner)
-
-
-class _Owner:
-    """Until it is gone ranks keep what stands under its number."""
+        found = ArrayOnRanks(self, dtype)
+        self.team.soon(_made, found.number, work, tuple(_reference(each) for each in given))
+        return found
 
 
 class _There(NamedTuple):
@@ -111,17 +108,15 @@ class ArrayOnRanks(NDArrayOperatorsMixin):
 
     Parameters
     ----------
-    cut, dtype, number : as above; a new one where not given
-    owner : as long as there is one, ranks hold what is under the number
+    cut, dtype : as above
     """
 
     ndim = 1
     __hash__ = object.__hash__  # by what it is; as with arrays, equality is of the entries
 
-    def __init__(self, cut: Cut, dtype: Any, number: int | None = None, owner: _Owner | None = None) -> None:
+    def __init__(self, cut: Cut, dtype: Any) -> None:
         self.cut, self.dtype, self.shape = cut, np.dtype(dtype), (cut.size,)
-        self._owner = owner or _Owner()
-        self.number = cut.team.kept(self._owner) if number is None else number
+        self.number = cut.team.kept(self)
         self._home: Array | None = None
         cut.team.away.add(self)
 
@@ -186,13 +181,14 @@ class ArrayOnRanks(NDArrayOperatorsMixin):
         given = self._there(inputs)
         if ufunc is np.matmul:
             return float(sum(self.cut.team.everywhere(_product, *(each.number for each in given))))
-        return self.cut.made(_entrywise, ufunc, *given)
+        return self.cut.made(_entrywise, ufunc, *given, dtype=_type_of(ufunc, given))
 
     def __array_function__(self, func: Any, kinds: Any, given: Any, keywords: Any) -> Any:
         """Choices between arrays on the ranks; anything else of all of it."""
         del kinds
         if func is np.where and len(given) == 3 and self._goes_with(given):
-            return self.cut.made(_entrywise, func, *self._there(given))
+            there = self._there(given)
+            return self.cut.made(_entrywise, func, *there, dtype=_type_of(func, there))
         if func is np.flatnonzero and self._home is None:
             found = self.cut.team.everywhere(_not_zero, self.number, self.cut.number)
             return np.sort(np.concatenate(found))
@@ -264,11 +260,14 @@ def _all_whole(given: Any) -> Any:
     return type(given)(_all_whole(each) for each in given) if isinstance(given, list | tuple) else _whole(given)
 
 
-def _made(team: Team, number: int, work: Callable[..., Any], given: tuple[Any, ...]) -> Any:
-    """Make entries of this rank, and keep them; their type."""
-    found = work(team, *(team.held[each.number] if isinstance(each, _There) else each for each in given))
-    team.held[number] = found
-    return found.dtype
+def _type_of(work: Callable[..., Any], given: Sequence[Any]) -> Any:
+    """Type of the entries that a function of NumPy makes of arrays on the ranks and numbers."""
+    return work(*(np.empty(0, each.dtype) if isinstance(each, ArrayOnRanks) else each for each in given)).dtype
+
+
+def _made(team: Team, number: int, work: Callable[..., Any], given: tuple[Any, ...]) -> None:
+    """Make entries of this rank, and keep them."""
+    team.held[number] = work(team, *(team.held[each.number] if isinstance(each, _There) else each for each in given))
 
 
 def _entrywise(team: Team, work: Callable[..., Any], *given: Any) -> Any:

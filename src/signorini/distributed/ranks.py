@@ -40,6 +40,7 @@ class Team:
     held : what this rank keeps for the first one, by number
     code : exit code that the first rank leaves with
     away : on the first rank: arrays that all of them keep, as long as somebody has them
+    lent : on the first rank: meshes that nobody but the run has, so that ranks may keep them
     owners : on the first rank: (n,) rank of each node of every mesh that was cut, as long as somebody has the mesh
     """
 
@@ -50,9 +51,11 @@ class Team:
         self.code = 0
         self.owners: weakref.WeakKeyDictionary[Any, Any] = weakref.WeakKeyDictionary()
         self.away: weakref.WeakSet[Any] = weakref.WeakSet()
+        self.lent: weakref.WeakSet[Any] = weakref.WeakSet()
         self.together = self.size == 1
         self._numbers = itertools.count()
         self._dropped: list[int] = []
+        self._soon: list[tuple[Callable[..., Any], tuple[Any, ...]]] = []
 
     @property
     def first(self) -> bool:
@@ -87,6 +90,16 @@ class Team:
         weakref.finalize(owner, self._dropped.append, number)
         return number
 
+    def soon(self, work: Callable[..., Any], *given: Any) -> None:
+        """Have all ranks call ``work(team, *given)`` before whatever they are asked for next, in the same message.
+
+        Parameters
+        ----------
+        work : a function of a module, of whose answer nobody asks anything
+        given : what all of them are given
+        """
+        self._soon.append((work, given))
+
     def everywhere(self, work: Callable[..., Any], *given: Any, pieces: Iterable[Any] | None = None) -> list[Any]:
         """Have all ranks call ``work(team, *given)``, or ``work(team, piece, *given)``; from the first one alone.
 
@@ -108,15 +121,16 @@ class Team:
                 f"'{PETSC}' inside 'with sg.ranks() as first:', by the first one alone"
             )
         dropped, self._dropped[:] = tuple(self._dropped), []
+        before, self._soon[:] = tuple(self._soon), []
         with _signals_held_back():
-            self.comm.bcast((work, given, pieces is not None, dropped))
+            self.comm.bcast((before, work, given, pieces is not None, dropped))
             own: tuple[Any, ...] = ()
             for rank, piece in enumerate(pieces or ()):
                 if rank:
                     self.comm.send(piece, dest=rank)
                 else:
                     own = (piece,)
-            return list(self._done(work, own, given, dropped) or ())
+            return list(self._done(before, work, own, given, dropped) or ())
 
     def serve(self) -> None:
         """Do what the first rank asks for, until it says that it has ended."""
@@ -126,24 +140,28 @@ class Team:
             signal.signal(number, signal.SIG_IGN)  # the first rank hears them too, and ends all
         with one_thread():
             while True:
-                work, given, in_pieces, dropped = self.comm.bcast(None)
+                before, work, given, in_pieces, dropped = self.comm.bcast(None)
                 if work is None:
                     (self.code,) = given
                     return
-                self._done(work, (self.comm.recv(source=0),) if in_pieces else (), given, dropped)
+                self._done(before, work, (self.comm.recv(source=0),) if in_pieces else (), given, dropped)
 
     def dismiss(self) -> None:
         """Let the other ranks go, and have what they keep here."""
         for array in tuple(self.away):
             array.come_home()
-        self.comm.bcast((None, (self.code,), False, ()))
+        self.comm.bcast(((), None, (self.code,), False, ()))
 
-    def _done(self, work: Callable[..., Any], own: tuple[Any, ...], given: tuple[Any, ...], dropped: Any) -> Any:
+    def _done(self, before: Any, work: Callable[..., Any], own: Any, given: tuple[Any, ...], dropped: Any) -> Any:
         """What all ranks return, on the first one; where one fails all end, because the others would wait for ever.
+
+        What was dropped may be asked for by what is done before.
 
         What the first one returns may be as large as its interface, and is not sent: MPI would copy it.
         """
         try:
+            for sooner, its in before:
+                sooner(self, *its)
             let_go = [self.held.pop(number, None) for number in dropped]
             if not all(_is_array(each) for each in let_go):
                 del let_go

@@ -49,7 +49,7 @@ def candidate_pairs(
         found = before if (before | ~needed).all() else before | _reached(examined, loading.times(_AHEAD))
     if found is before and held:
         return found
-    seen = chosen_rows(examined.interface.felt(examined.motions), examined.interface.rows(found))
+    seen = chosen_rows(examined.interface.felt(examined.rigid), examined.interface.rows(found))
     if free_motions(examined.resisted, seen).shape[1]:
         return np.ones_like(found)
     return found

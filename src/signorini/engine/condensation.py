@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -213,4 +212,4 @@ def with_ties(examined: Examined, ties: Ties) -> Constraints:
     """
     constraints, B, T = examined.constraints, examined.interface.B[ties.rows], examined.constraints.transform
     prescribed = {name: u + T @ ties.closing(B @ u) for name, u in constraints.prescribed.items()}
-    return replace(constraints, prescribed=prescribed)
+    return constraints.prescribing(prescribed)

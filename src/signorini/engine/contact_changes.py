@@ -104,7 +104,7 @@ def staged(prepared: Prepared, stage: Stage, loading: Loading) -> Prepared:
     if absent.any():
         left = interface.among(~absent)
         try:
-            refuse_free_motions(prepared.space, prepared.resisted, left, prepared.parts, prepared.motions)
+            refuse_free_motions(prepared.space, prepared.resisted, left, prepared.parts, prepared.rigid)
         except InputError as error:
             raise left_out(error, stage) from error
     return prepared.under(interface, loading, absent)

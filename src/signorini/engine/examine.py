@@ -20,14 +20,8 @@ from signorini.fem.body_frames import BodyFrames
 from signorini.fem.links import linked_nodes
 from signorini.fem.loads import nodal_loads
 from signorini.fem.locking import refuse_locking
-from signorini.fem.rigid import (
-    ConnectedBody,
-    connected_bodies,
-    describe_motions,
-    free_motions,
-    resistance,
-    rigid_motions,
-)
+from signorini.fem.rigid import ConnectedBody, connected_bodies, describe_motions, free_motions
+from signorini.fem.rigid_motions import RigidMotions, resistance
 from signorini.fem.space import Space, make_space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.fem.turning_bodies import turning_bodies
@@ -48,8 +42,8 @@ class Examined:
     ----------
     always : what supports hold that no step lets go: planes of symmetry of the pairs
     loads : name to nodal forces at factor 1, each (dofs,)
-    parts, motions : connected pieces and their rigid motions, (dofs, motions of all parts)
-    resisted : (motions, motions) what supports and foundations take of them, see `fem.rigid.resistance`
+    parts, rigid : connected pieces and their rigid motions
+    resisted : (motions, motions) what supports and foundations take of them, see `fem.rigid_motions.resistance`
     floating : (motions, k) rigid motions that supports leave free and contact must hold
     frames : of bodies that may turn by any angle
     loading : the most that its first step imposes, or steps before it did
@@ -63,12 +57,17 @@ class Examined:
     interface: Interface
     loads: Mapping[str, Array]
     parts: tuple[ConnectedBody, ...]
-    motions: sp.csr_array
+    rigid: RigidMotions
     resisted: Array
     floating: Array
     frames: BodyFrames
     loading: Loading
     scale: Scale
+
+    @property
+    def motions(self) -> sp.csr_array:
+        """(dofs, motions of all parts), see :func:`signorini.fem.rigid_motions.rigid_motions`."""
+        return self.rigid.matrix
 
     @property
     def has_laws(self) -> bool:
@@ -117,8 +116,8 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
     if start is not None:
         start.check(model, interface)
     parts = connected_bodies(space, model)
-    motions = rigid_motions(space, parts)
-    resisted = resistance(motions, constraints)
+    rigid = RigidMotions(space, parts)
+    resisted = resistance(rigid, constraints)
     loading = loading_of(schedule[0], loads, constraints.prescribed, None if start is None else start.loading)
     examined = Examined(
         model=model,
@@ -128,9 +127,9 @@ def examine(model: Model, *, start: Checkpoint | None = None) -> Examined:
         interface=interface,
         loads=loads,
         parts=parts,
-        motions=motions,
+        rigid=rigid,
         resisted=resisted,
-        floating=floating_motions(motions, resisted, interface),
+        floating=floating_motions(rigid, resisted, interface),
         frames=turning_bodies(space, model, parts) if model.slides else BodyFrames(dimension=space.components),
         loading=loading,
         scale=data_scale(space, model, loading, interface),
@@ -171,10 +170,10 @@ def _refuse_unheld(examined: Examined, schedule: Sequence[Stage]) -> None:
         seen.add((stage.released, stage.inactive))
         resisted = examined.resisted
         if stage.released != schedule[0].released:
-            resisted = resistance(examined.motions, make_constraints(space, model, without=stage.released))
+            resisted = resistance(examined.rigid, make_constraints(space, model, without=stage.released))
         left = interface.among(~pairs_of(model, interface, stage.inactive)) if stage.inactive else interface
         try:
-            refuse_free_motions(space, resisted, left, examined.parts, examined.motions)
+            refuse_free_motions(space, resisted, left, examined.parts, examined.rigid)
         except InputError as error:
             raise left_out(error, stage) from error
 
@@ -193,7 +192,7 @@ def refuse_free_motions(
     resisted: Array,
     interface: Interface,
     parts: tuple[ConnectedBody, ...],
-    motions: sp.csr_array,
+    rigid: RigidMotions,
 ) -> None:
     """A motion that neither supports nor contact can resist has no place that a solver could find.
 
@@ -201,19 +200,20 @@ def refuse_free_motions(
     ----------
     space : unknowns
     resisted, interface : what supports take of the motions, and the pairs
-    parts, motions : connected pieces, and (dofs, motions of all of them) their rigid motions
+    parts, rigid : connected pieces and their rigid motions
 
     Raises
     ------
     InputError
         If a part can move: with its motion.
     """
-    touching = chosen_rows(motions, space.dofs(distinct(interface.B.indices // space.components)).ravel())
+    dofs = space.dofs(distinct(interface.B.indices // space.components)).ravel()
+    touching = chosen_rows(rigid.seen_by(dofs), dofs)
     free = free_motions(resisted, touching)
     if free.shape[1]:
         raise InputError(f"{_say(parts, free)}: no support or contact holds it; add a support")
     rubbing = (interface.friction.rubs & (interface.anisotropy > 0).T).ravel()
-    resisting = chosen_rows(interface.felt(motions), np.concatenate([np.ones(len(interface), bool), rubbing]))
+    resisting = chosen_rows(interface.felt(rigid), np.concatenate([np.ones(len(interface), bool), rubbing]))
     free = free_motions(resisted, resisting)
     if free.shape[1]:
         raise InputError(
@@ -225,12 +225,12 @@ def _say(parts: tuple[ConnectedBody, ...], motions: Array) -> str:
     return ", and ".join(describe_motions(parts, motions))
 
 
-def floating_motions(motions: sp.csr_array, resisted: Array, interface: Interface) -> Array:
+def floating_motions(rigid: RigidMotions, resisted: Array, interface: Interface) -> Array:
     """(motions, k) Combinations of rigid motions that neither supports nor ties resist.
 
     Parameters
     ----------
-    motions : (dofs, motions of all parts)
+    rigid : motions of all parts
     resisted, interface : what supports take of them, and the pairs with their ties
     """
-    return free_motions(resisted, chosen_rows(interface.felt(motions), interface.rows(interface.tied)))
+    return free_motions(resisted, chosen_rows(interface.felt(rigid), interface.rows(interface.tied)))

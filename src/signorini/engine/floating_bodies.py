@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, extent
+from signorini.arrays import Array, BoolArray
 from signorini.attempt import Spent
 from signorini.engine.increments import applied, certified, moving_away
 from signorini.engine.prepare import Prepared
@@ -56,17 +56,17 @@ def approached(part: StepPart, *, relieving: bool = False) -> FollowedPart | Non
     """
     prepared, state = part.prepared, part.before
     interface = prepared.interface
-    floating, motions = prepared.floating, prepared.motions
+    floating, rigid = prepared.floating, prepared.rigid
     if not floating.shape[1] or not len(interface):
         return None
     change = change_of_loads(part)
-    work = floating.T @ prepared.constraints.resultants(motions, change)
+    work = floating.T @ prepared.constraints.resultants(rigid, change)
     enough = DRIVES * float(np.abs(change).sum())
     presses, apart, width = standing(prepared, state)
     overlaps = bool((state.gap[apart] < -width).any())
     if not (relieving if overlaps else np.abs(work).max() > enough):
         return None
-    moved = np.asarray(interface.felt(motions) @ floating)
+    moved = np.asarray(interface.felt(rigid) @ floating)
     rubs = presses & interface.friction.rubs
     basis = unfelt(moved[np.concatenate([presses, *[rubs] * (interface.directions - 1)])])
     basis = basis @ _alike(prepared, floating @ basis)
@@ -162,7 +162,7 @@ def _approach(part: StepPart, apart: BoolArray, motion: Array, loose: Array, rel
         status=np.where(apart, OPEN, state.status),
     )
     notes = []
-    if np.abs(motion).max() > _SEEN * float(extent(prepared.space.mesh.points).max()):
+    if np.abs(motion).max() > _SEEN * float(prepared.space.mesh.extent.max()):
         where = f"{part.where} at {100.0 * part.interval.low:.6g}%" if part.interval.low else part.where
         notes = [f"{where}: {words}" for words in describe_approach(prepared.parts, motion, loose)]
     return FollowedPart(
@@ -191,10 +191,10 @@ def resting(part: StepPart) -> StepPart:
         return part
     presses, apart, width = standing(prepared, state)
     touches = presses | (apart & (state.gap <= width))
-    moved = np.asarray(prepared.interface.felt(prepared.motions) @ prepared.floating)
+    moved = np.asarray(prepared.interface.felt(prepared.rigid) @ prepared.floating)
     loose = unfelt(moved[prepared.interface.rows(touches)])
     change = change_of_loads(part)
-    work = prepared.floating.T @ prepared.constraints.resultants(prepared.motions, change)
+    work = prepared.floating.T @ prepared.constraints.resultants(prepared.rigid, change)
     if not loose.shape[1] or np.abs(loose.T @ work).max() > DRIVES * float(np.abs(change).sum()):
         return part
     seen = np.abs(moved @ loose).max(axis=1) > _FEELS * float(np.abs(moved).max())

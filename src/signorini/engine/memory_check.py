@@ -58,8 +58,8 @@ def likely_entries(model: Model) -> float:
     model : which is not assembled yet
     """
     return sum(
-        _SHARED.get(family, _SHARED_ELSE) * cells.shape[0] * (cells.shape[1] * model.components) ** 2
-        for family, cells in model.mesh.cells.items()
+        _SHARED.get(family, _SHARED_ELSE) * number * (nodes * model.components) ** 2
+        for family, (number, nodes) in model.mesh.shapes.items()
     )
 
 

@@ -25,7 +25,8 @@ from signorini.engine.stride_pairs import where_bodies_are
 from signorini.errors import InputError, SolveFailed
 from signorini.fem.body_frames import BodyFrames
 from signorini.fem.loads import nodal_loads
-from signorini.fem.rigid import connected_bodies, resistance, rigid_motions
+from signorini.fem.rigid import connected_bodies
+from signorini.fem.rigid_motions import RigidMotions, resistance
 from signorini.fem.space import make_space
 from signorini.fem.supports import Constraints, make_constraints
 from signorini.fem.worn_mesh import WornSide, cell_heights, worn_places
@@ -112,8 +113,8 @@ def _examined(now: Prepared, model: Model) -> Examined:
         raise InputError(words, where=("contact", 0))
     interface = with_geometry(now.interface, found)
     parts = connected_bodies(space, model)
-    motions = rigid_motions(space, parts)
-    resisted = resistance(motions, constraints)
+    rigid = RigidMotions(space, parts)
+    resisted = resistance(rigid, constraints)
     return Examined(
         model=model,
         space=space,
@@ -122,9 +123,9 @@ def _examined(now: Prepared, model: Model) -> Examined:
         interface=interface,
         loads={name: now.multiplied.get(name, 1.0) * forces for name, forces in nodal_loads(space, model).items()},
         parts=parts,
-        motions=motions,
+        rigid=rigid,
         resisted=resisted,
-        floating=floating_motions(motions, resisted, interface),
+        floating=floating_motions(rigid, resisted, interface),
         frames=BodyFrames(dimension=space.dimension),
         loading=now.loading,
         scale=now.scale,
@@ -134,7 +135,7 @@ def _examined(now: Prepared, model: Model) -> Examined:
 def _times(constraints: Constraints, now: Prepared) -> Constraints:
     """With what supports prescribe as it was changed."""
     prescribed = {name: now.multiplied.get(name, 1.0) * u for name, u in constraints.prescribed.items()}
-    return replace(constraints, prescribed=prescribed)
+    return constraints.prescribing(prescribed)
 
 
 def with_geometry(law: Interface, geometry: Interface) -> Interface:

@@ -28,7 +28,7 @@ from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.tangent_bodies import TangentBodies
 from signorini.engine.way_costs import CONDENSED, increments_before, increments_of
 from signorini.errors import InputError
-from signorini.fem.rigid import resistance
+from signorini.fem.rigid_motions import resistance
 from signorini.fem.stiffness import reduced_stiffness
 from signorini.fem.supports import make_constraints
 from signorini.interface.interface import Interface
@@ -148,18 +148,18 @@ class Prepared(Examined, DiscreteModel):
         """Under all supports but some; what is factorised is not theirs yet."""
         constraints = make_constraints(self.space, self.model, without=released)
         prescribed = {name: self.multiplied.get(name, 1.0) * u for name, u in constraints.prescribed.items()}
-        resisted = resistance(self.motions, constraints)
+        resisted = resistance(self.rigid, constraints)
         return replace(
             self,
-            constraints=replace(constraints, prescribed=prescribed),
+            constraints=constraints.prescribing(prescribed),
             posed=prescribed,
             resisted=resisted,
-            floating=floating_motions(self.motions, resisted, self.interface),
+            floating=floating_motions(self.rigid, resisted, self.interface),
             released=released,
         )
 
     def _made_again(self, candidates: BoolArray) -> Prepared:
-        posed = replace(self, constraints=replace(self.constraints, prescribed=self.posed))
+        posed = replace(self, constraints=self.constraints.prescribing(self.posed))
         key = self.released, candidates.tobytes()
         known = self.kept.get(key) if self.kept else None
         asked = self.backend, self.settings, self.clock, known, self.increments
@@ -262,13 +262,13 @@ class Prepared(Examined, DiscreteModel):
         now = replace(
             self,
             model=model,
-            constraints=replace(self.constraints, prescribed=scaled(self.constraints.prescribed, factor)),
+            constraints=self.constraints.prescribing(scaled(self.constraints.prescribed, factor)),
             posed=scaled(self.posed, factor),
             loads=scaled(self.loads, factor),
             multiplied=factor | {name: factor.get(name, 1.0) * old for name, old in self.multiplied.items()},
             clock=Clock(),
         )
-        refuse_free_motions(self.space, self.resisted, interface, self.parts, self.motions)
+        refuse_free_motions(self.space, self.resisted, interface, self.parts, self.rigid)
         return now.under(interface, loading_of(next(stages(model)), now.loads, now.posed), self.absent)
 
 
@@ -358,7 +358,8 @@ def condensed_model(
         if backend == PETSC:
             from signorini.engine.solver_on_ranks import solver_on_ranks  # needs PETSc
 
-            solver, data["constraints"] = solver_on_ranks(examined, K, candidates, settings)
+            solver, there = solver_on_ranks(examined, K, candidates, settings)
+            data |= there  # what is as large as the mesh
         elif yields or known is None:
             reduced = reduced_bodies(examined, K)
     if reduced is not None and condensed is None:
@@ -389,7 +390,7 @@ def condensed_model(
         clock=clock,
         backend=backend,
         candidates=candidates,
-        posed=examined.constraints.prescribed,
+        posed=(data if backend == PETSC else vars(examined))["constraints"].prescribed,
         settings=settings,
         softness=bent,
         plans=plans,

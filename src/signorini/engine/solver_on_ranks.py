@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import scipy.sparse as sp
 
@@ -10,6 +12,7 @@ from signorini.arrays import BoolArray, among
 from signorini.distributed.bodies import RowsOnRanks, make_bodies_on_ranks
 from signorini.distributed.constraints import ConstraintsOnRanks
 from signorini.distributed.direct import MatrixOnRanks
+from signorini.distributed.mesh_rows import at_hand, let_go
 from signorini.distributed.ranks import MUMPS, PETSC, the_team
 from signorini.distributed.refusals import refuse_without_mumps
 from signorini.distributed.room import room_for
@@ -19,6 +22,7 @@ from signorini.engine.memory_check import likely_entries
 from signorini.engine.multipliers import MultiplierSolver
 from signorini.fem.kinematics import straining_groups
 from signorini.settings import SolverSettings
+from signorini.solution.checkpoint import digest
 
 # least bytes an entry of the stiffness, on all ranks together: where they are iterated on cubes of 25,000 to 130,000
 # unknowns take 80, with coarse grids and springs; for MUMPS pieces and rows, 12 each, and the factor when it is known
@@ -75,8 +79,11 @@ def stiffness_on_ranks(examined: Examined, backend: str) -> tuple[StiffnessOnRan
 
 def solver_on_ranks(
     examined: Examined, K: StiffnessOnRanks, candidates: BoolArray, settings: SolverSettings
-) -> tuple[MultiplierSolver, ConstraintsOnRanks]:
-    """The method of multipliers on bodies that are on all ranks, and constraints by which vectors stay there.
+) -> tuple[MultiplierSolver, dict[str, Any]]:
+    """The method of multipliers on bodies that are on all ranks, and what of the model stays there from now on.
+
+    That is all that is as large as the mesh: supports, and what they prescribe, and loads. Rigid motions are made anew
+    where somebody asks for them.
 
     Parameters
     ----------
@@ -84,13 +91,27 @@ def solver_on_ranks(
     K : its pieces on the ranks, which are cut anew where constraints ask for more
     candidates : (n,) pairs that may touch
     settings : limits of the rounds
+
+    Returns
+    -------
+    The solver, and fields of `Examined`
     """
-    rows = _rows(examined, K)
-    examined.space.forget("facets", "facets_at_boundaries", "volumes")
-    B, points = sp.csr_array(examined.interface.B @ examined.constraints.transform), examined.space.mesh.points
-    bodies = make_bodies_on_ranks(rows, points, B, examined.interface, candidates)
-    constraints = ConstraintsOnRanks.of(examined.constraints, rows, examined.motions)
-    return MultiplierSolver(bodies=bodies, settings=settings), constraints
+    constraints, interface, space = examined.constraints, examined.interface, examined.space
+    known = constraints if isinstance(constraints, ConstraintsOnRanks) else None
+    with at_hand(space.mesh, space.blocks):
+        rows = _rows(examined, K) if known is None else known.rows
+        space.forget("facets", "facets_at_boundaries", "volumes", "used", "used_nodes")
+        B = sp.csr_array(interface.B @ constraints.transform)
+        bodies = make_bodies_on_ranks(rows, space.mesh.points, B, interface, candidates)
+        there = known or ConstraintsOnRanks.of(constraints, rows, examined.rigid)
+    examined.rigid.forget()
+    digest(examined.model.mesh)  # checkpoints know the mesh by it
+    let_go(space)
+    return MultiplierSolver(bodies=bodies, settings=settings), {
+        "constraints": there,
+        "always": there if examined.always is constraints else examined.always,
+        "loads": {name: K.vectors.of(forces) for name, forces in examined.loads.items()},
+    }
 
 
 def matrix_on_ranks(examined: Examined, K: StiffnessOnRanks) -> MatrixOnRanks:
@@ -101,11 +122,11 @@ def matrix_on_ranks(examined: Examined, K: StiffnessOnRanks) -> MatrixOnRanks:
     examined : the model
     K : its pieces on the ranks, which are cut anew where constraints ask for more
     """
-    return MatrixOnRanks.of(_rows(examined, K))
+    return MatrixOnRanks.of(_rows(examined, K), examined.constraints.transform)
 
 
 def _rows(examined: Examined, K: StiffnessOnRanks) -> RowsOnRanks:
     constraints = examined.constraints
     if not K.serves(constraints):
         K.cut(constraints)
-    return RowsOnRanks(K, examined.space, constraints, sp.csr_array(constraints.transform.T @ examined.motions))
+    return RowsOnRanks(K, examined.space, constraints, examined.rigid)

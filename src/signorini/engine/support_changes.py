@@ -36,10 +36,11 @@ def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
     point = replace(state.point, reaction=np.zeros(0), offset=np.zeros(0))
     loads, imposed = (np.asarray(part) for part in applied(prepared, point))
     borne = np.asarray(before.support_forces(state.external - loads))
-    reaction = np.where(before.held & ~now.held, borne, 0.0)
-    other = now.held & ((now.owner != before.owner) | ~before.held)
+    was, held = np.asarray(before.held), np.asarray(now.held)
+    reaction = np.where(was & ~held, borne, 0.0)
+    other = held & ((np.asarray(now.owner) != np.asarray(before.owner)) | ~was)
     old = state.point.offset if len(state.point.offset) else np.zeros(len(imposed))
-    offset = np.where(other, state.displacement - imposed, np.where(now.held, old, 0.0))
+    offset = np.where(other, state.displacement - imposed, np.where(held, old, 0.0))
     return state.changed(point=replace(state.point, reaction=reaction, offset=completed(prepared, offset)))
 
 
@@ -74,7 +75,7 @@ def refuse_moved(prepared: Prepared, state: State) -> None:
         return
     dof = int(np.argmax(off))
     model, (node, axis) = prepared.model, divmod(dof, prepared.model.components)
-    of_mesh = node < len(model.mesh.points)
+    of_mesh = node < model.mesh.number_of_nodes
     at = f"node {model.mesh.labels[node]}" if of_mesh else "an obstacle or rigid body"
     owner = constraints.owner[dof]
     by = f"support '{model.supports[owner].label}'" if owner >= 0 else "the model"
@@ -97,7 +98,7 @@ def at_the_end(prepared: Prepared, stage: Stage, point: LoadPoint) -> tuple[Arra
     labels = [support.label for support in prepared.model.supports]
     restored = [labels.index(name) for name in stage.step.restore]
     kept = np.where(np.isin(prepared.constraints.owner, restored), 0.0, point.offset)
-    kept[~prepared.constraints.held] = 0.0
+    kept[~np.asarray(prepared.constraints.held)] = 0.0
     return np.zeros_like(point.reaction), completed(prepared, kept)
 
 

@@ -106,7 +106,7 @@ def _open_notes(prepared: Prepared, followed: FollowedPart) -> Iterator[str]:
 def overlap_notes(examined: Examined) -> Iterator[str]:
     """Contacts whose sides overlap to begin with, as they are meshed."""
     interface, model = examined.interface, examined.model
-    size = float(extent(model.mesh.points).max())
+    size = float(model.mesh.extent.max())
     for i, contact in enumerate(model.contacts):
         gap = interface.gap[interface.contact == i]
         if gap.min(initial=0.0) < -_OVERLAP_TOL * size and contact.interference == 0.0 and contact.gap == "geometry":
@@ -137,7 +137,7 @@ def _fewest(prepared: Prepared, i: int, nodes: IntArray, closed: BoolArray) -> i
     """Pairs across the smallest patch of a contact that ends between open pairs; four where there are enough."""
     space = prepared.space
     named = space.mesh.facets(prepared.interface.sides[i].nonmortar)  # of cells, which are many, nothing is asked
-    place = np.full(len(space.mesh.points), -1)
+    place = np.full(space.mesh.number_of_nodes, -1)
     place[nodes] = np.arange(len(nodes))
     facets = [place[given[:, : facet_corners(space.dimension, given.shape[1])]] for given in named]
     one, two = np.concatenate([np.stack([at, np.roll(at, -1, axis=1)]).reshape(2, -1) for at in facets], axis=1)
@@ -199,8 +199,8 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
         for part in bodies:
             moved = displacement[part.nodes]
             if prepared.model.twists:
-                radii = prepared.space.mesh.points[part.nodes, 0]
-                moved = moved - np.outer(radii, [0.0, 0.0, moved[:, 2] @ radii / max(radii @ radii, 1e-300)])
+                radii = prepared.space.mesh.places_of(part.nodes)[:, 0]
+                moved = moved - np.outer(radii, [0.0, 0.0, moved[:, 2] @ radii / max(float(radii @ radii), 1e-300)])
             change = float(np.linalg.norm(extent(moved))) / (2.0 * part.size)
             if change > _STRAINED:
                 yield (
@@ -214,7 +214,7 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
         own = (interface.contact == i) & (state.status != OPEN)
         if not own.any():
             continue
-        across = float(np.linalg.norm(extent(prepared.space.mesh.points[interface.node[own]])))
+        across = float(np.linalg.norm(extent(prepared.space.mesh.places_of(interface.node[own]))))
         if slip[own].max() > _SLID * across > 0.0 and not contact.slides:
             yield (
                 f"contact '{contact.label}' slips by up to {slip[own].max():.4g}, and what touches is {across:.4g} "

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from signorini.arrays import Array, BoolArray, extent
+from signorini.arrays import Array, BoolArray
 from signorini.fem.space import Space
 from signorini.model.model import Model
 from signorini.model.obstacle import Obstacle
@@ -16,7 +16,7 @@ from signorini.model.obstacle import Obstacle
 
 def arm(model: Model) -> float:
     """What rotations are multiplied by to be displacements: half the diagonal of the mesh, length."""
-    return float(np.linalg.norm(extent(model.mesh.points)) / 2.0)
+    return float(np.linalg.norm(model.mesh.extent) / 2.0)
 
 
 def carried(model: Model, points: Array, about: Array) -> Array:

@@ -1,22 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rigid motions: which ones the supports leave to each connected part, and how to say them."""
+"""Connected parts: which rigid motions are left to them, and how to say these."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
-from signorini.arrays import Array, IntArray, among, extent, index_type
+from signorini.arrays import Array, BoolArray, IntArray, among, extent, index_type
 from signorini.dense import symmetric_eigen
 from signorini.fem.obstacles import arm
 from signorini.fem.space import Space
-from signorini.fem.supports import Constraints
 from signorini.model.model import Model
-from signorini.sparse_rows import chosen_rows, gram, of_entries, rows_of
+from signorini.sparse_rows import gram, rows_of
 
 _HELD_LEAST = 1e-12  # of the largest eigenvalue of the Gram matrix of the motions: below it a motion is not held
 _REST_TOL = 1e-10  # of the largest coefficient of a motion: what eigenvectors leave to parts that are at rest
@@ -62,6 +61,10 @@ class ConnectedBody:
         """How many rigid motions it has."""
         return len(self.axes) + self.rotations
 
+    def among(self, kept: BoolArray) -> ConnectedBody:
+        """What is left of a piece that keeps some of (nodes of the mesh,)."""
+        return replace(self, nodes=self.nodes[kept[self.nodes]])
+
 
 def connected_bodies(space: Space, model: Model) -> tuple[ConnectedBody, ...]:
     """The connected pieces of the mesh in the order of their first nodes, then what moves without being meshed.
@@ -98,7 +101,7 @@ def _freedom(model: Model) -> dict[str, Any]:
     return (
         {"axes": (1,), "rotations": int(model.twists)}
         if model.axisymmetric
-        else {"axes": tuple(range(d)), "rotations": len(_rotation_planes(d))}
+        else {"axes": tuple(range(d)), "rotations": len(rotation_planes(d))}
     )
 
 
@@ -118,7 +121,7 @@ def _pieces(space: Space, model: Model) -> list[ConnectedBody]:
     ]
     parts = []
     for i in np.flatnonzero(among([piece[space.used_nodes]], number)):
-        nodes = np.nonzero(piece == i)[0]
+        nodes = np.nonzero(piece == i)[0].astype(index_type(space.number_of_dofs))
         names = tuple(body.name for body, own in zip(model.bodies, pieces_of, strict=True) if own[i])
         centre, size = points[nodes].mean(axis=0), float(np.linalg.norm(extent(points[nodes])) / 2.0)
         parts.append(ConnectedBody(bodies=names, nodes=nodes, centre=centre, size=size, **_freedom(model)))
@@ -148,61 +151,9 @@ def _loose_nodes(space: Space) -> list[ConnectedBody]:
     ]
 
 
-def rigid_motions(space: Space, parts: tuple[ConnectedBody, ...]) -> sp.csr_array:
-    """Translations along x and y and the rotation ``(-(y - y_c), x - x_c) / size`` of each part, (dofs, motions).
-
-    In space three translations and the rotations ``e_k x (x - c) / size``. Axisymmetric parts move along the axis
-    alone, with twist turn about it as well, ``u_t = r / size``: widening a ring or tilting a plate strains it.
-    """
-    twists = space.components > space.dimension
-    d = space.dimension
-    full = d + len(_rotation_planes(d))
-    rows, columns, values = [], [], []
-    start = np.cumsum([0, *(part.motions for part in parts)])
-    for i, part in enumerate(parts):
-        lever = (space.mesh.points[part.nodes] - part.centre) / part.size
-        one, along = np.ones(len(part.nodes)), space.dofs(part.nodes).T
-        motions = [(k, dofs, one) for k, dofs in enumerate(along)]
-        if twists and part.rotations:
-            motions[2:] = [(2, along[2], space.mesh.points[part.nodes, 0] / part.size)]
-        for k, (first, second) in enumerate([] if twists else _rotation_planes(d), start=d):
-            motions += [(k, along[first], -lever[:, second]), (k, along[second], lever[:, first])]
-        if part.obstacle >= 0:
-            motions = [(k, dof, np.ones(1)) for k, dof in enumerate(space.obstacle_dofs(part.obstacle)[:full, None])]
-        kept = [*part.axes, *range(d, d + part.rotations)]
-        for k, dofs, value in motions:
-            if k in kept:
-                rows.append(dofs)
-                columns.append(np.full(len(dofs), start[i] + kept.index(k)))
-                values.append(value)
-    narrow = index_type(space.number_of_dofs)
-    row, column = (np.concatenate(numbers, dtype=narrow, casting="same_kind") for numbers in (rows, columns))
-    return of_entries(np.concatenate(values), row, column, (space.number_of_dofs, int(start[-1])))
-
-
-def _rotation_planes(dimension: int) -> tuple[tuple[int, int], ...]:
+def rotation_planes(dimension: int) -> tuple[tuple[int, int], ...]:
     """Of every rotation the axis that it turns into the other."""
     return ((0, 1),) if dimension == 2 else ((1, 2), (2, 0), (0, 1))
-
-
-def resistance(motions: sp.csr_array, constraints: Constraints) -> Array:
-    """(motions of all parts, motions of all parts) Products of what supports and elastic foundations take of motions.
-
-    Parameters
-    ----------
-    motions : (dofs, motions of all parts), see :func:`rigid_motions`
-    constraints : what supports hold, and elastic foundations
-    """
-    # what supports, rigid boundaries and equations hold is what the free displacements cannot represent: nothing of the
-    # dofs that these are
-    leaders = constraints.leaders
-    others = np.flatnonzero(~among([leaders], motions.shape[0]))
-    lost, follow = chosen_rows(motions, others), chosen_rows(constraints.transform, others)
-    if follow.nnz:
-        lost = lost - follow @ chosen_rows(motions, leaders)
-    # springs count as held, whatever their stiffness
-    springs = [(S / abs(S).max()) @ motions for S in constraints.springs.values()]
-    return gram(sp.csr_array(sp.vstack([lost, *springs])) if springs else lost)
 
 
 def free_motions(resisted: Array, seen: sp.csr_array) -> Array:
@@ -210,7 +161,7 @@ def free_motions(resisted: Array, seen: sp.csr_array) -> Array:
 
     Parameters
     ----------
-    resisted : (motions of all parts, motions of all parts), see :func:`resistance`
+    resisted : (motions of all parts, motions of all parts), see :func:`signorini.fem.rigid_motions.resistance`
     seen : (rows, motions of all parts) what further components that are held, of unit size, see of the motions
 
     Returns
@@ -226,7 +177,7 @@ def describe_motion(parts: tuple[ConnectedBody, ...], motion: Array) -> str:
 
     Parameters
     ----------
-    motion : coefficients of :func:`rigid_motions`
+    motion : coefficients of the rigid motions
 
     Examples
     --------
@@ -242,7 +193,7 @@ def describe_motions(parts: tuple[ConnectedBody, ...], motions: Array) -> list[s
 
     Parameters
     ----------
-    motions : (motions of all parts, k) coefficients of :func:`rigid_motions`
+    motions : (motions of all parts, k) coefficients of the rigid motions
 
     Examples
     --------
@@ -261,7 +212,7 @@ def describe_approach(parts: tuple[ConnectedBody, ...], motion: Array, loose: Ar
 
     Parameters
     ----------
-    motion : coefficients of :func:`rigid_motions`
+    motion : coefficients of the rigid motions
     loose : what of it nothing but resistance to motion decided
 
     Examples

@@ -13,7 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 import skfem
 
-from signorini.arrays import Array, BoolArray, IntArray, among, frozen
+from signorini.arrays import Array, BoolArray, IntArray, among, elsewhere, frozen
 from signorini.fem.cell_checks import refuse_far_nodes, refuse_negative_radii, refuse_shape
 from signorini.fem.jacobian import cell_determinants
 from signorini.fem.wedge import QuadraticWedge
@@ -62,6 +62,7 @@ _ELEMENTS: Mapping[str, _Element] = {
 }
 
 
+@elsewhere("cells")
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Block:
     """Cells of one family with shape functions at points of the reference cell.
@@ -131,6 +132,7 @@ class Space:
         """Cells whose nodes are at places (nodes, d), which displacements (dofs,) have brought them to, or none."""
         mesh = copy(self.mesh)  # nothing but the places is another, and nothing is to be checked again
         object.__setattr__(mesh, "points", frozen(points))
+        vars(mesh).pop("extent", None)
         found = replace(self, mesh=mesh, displacement=displacement)
         found.__dict__["facets_at_boundaries"] = self.facets_at_boundaries
         if "facets" in self.__dict__:
@@ -154,7 +156,7 @@ class Space:
     @property
     def dimension(self) -> int:
         """Of the coordinates; displacements have one component more in bodies of revolution that twist."""
-        return int(self.mesh.points.shape[1])
+        return self.mesh.dimension
 
     @property
     def number_of_dofs(self) -> int:
@@ -164,7 +166,7 @@ class Space:
     @property
     def dofs_of_nodes(self) -> int:
         """How many belong to nodes of the mesh; those of obstacles follow."""
-        return len(self.mesh.points) * self.components
+        return self.mesh.number_of_nodes * self.components
 
     @property
     def places(self) -> Array:
@@ -222,13 +224,16 @@ class Space:
     @cached_property
     def volumes(self) -> tuple[Array, ...]:
         """Quadrature weights times ``|det dx/dX|``, (m, q) a block: area of each quadrature point."""
-        points = self.mesh.points
-        return tuple(np.abs(cell_determinants(points, b.cells, b.gradients)) * b.weights for b in self.blocks)
+        return tuple(self._volumes_in(block) for block in self.blocks)
+
+    def _volumes_in(self, block: Block) -> Array:
+        return np.abs(cell_determinants(self.mesh.points, block.cells, block.gradients)) * block.weights
 
     @cached_property
     def volume(self) -> float:
-        """Of all cells."""
-        return sum(float(volumes.sum()) for volumes in self.volumes)
+        """Of all cells; those of points of a large mesh are not kept for it."""
+        known = self.__dict__.get("volumes") or map(self._volumes_in, self.blocks)
+        return sum(float(volumes.sum()) for volumes in known)
 
     def volumes_of(self, block: Block) -> Array:
         """Area of each quadrature point of a block, (m, q)."""
@@ -248,7 +253,7 @@ class Space:
         arms = np.ones(len(dofs))
         if self.components > self.dimension:
             hoop = (dofs % self.components == 2) & (dofs < self.dofs_of_nodes)
-            arms[hoop] = self.mesh.points[dofs[hoop] // self.components, 0]
+            arms[hoop] = self.mesh.places_of(dofs[hoop] // self.components)[:, 0]
         return arms
 
     def farthest(self, displacement: Array) -> float:

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol, Self
 
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, index_type
+from signorini.arrays import Array, BoolArray, IntArray, elsewhere, index_type
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
@@ -26,6 +28,15 @@ from signorini.sparse_rows import renumbered, rows_of, selection, transposed, tu
 _AGREEMENT_TOL = 1e-9  # of what supports prescribe: what equations may ask otherwise of it
 
 
+class Motions(Protocol):
+    """Motions of all dofs, see :class:`signorini.fem.rigid.RigidMotions`."""
+
+    @property
+    def matrix(self) -> sp.csr_array:
+        """(dofs, k)."""
+
+
+@elsewhere("transform")
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Constraints:
     """``u = T z + sum_k s_k g_k``: z the free displacements, g_k what support k prescribes at factor 1.
@@ -51,6 +62,12 @@ class Constraints:
     dependent: IntArray
     shares: sp.csr_array
 
+    def prescribing(self, prescribed: Mapping[str, Array]) -> Self:
+        """Constraints that prescribe something else; ``prescribed`` as above."""
+        made = copy(self)
+        object.__setattr__(made, "prescribed", prescribed)
+        return made
+
     @property
     def zeros(self) -> Array:
         """(dofs,) Zeros, where vectors of all displacements are: here, or on the ranks of MPI."""
@@ -75,9 +92,9 @@ class Constraints:
         """(z,) The free displacements in some of all dofs (dofs,)."""
         return displacement[self.leaders]
 
-    def resultants(self, motions: sp.csr_array, forces: Array) -> Array:
-        """(k,) Work of forces (dofs,) on rigid motions (dofs, k)."""
-        found: Array = transposed(motions) @ forces
+    def resultants(self, rigid: Motions, forces: Array) -> Array:
+        """(k,) Work of forces (dofs,) on k rigid motions."""
+        found: Array = transposed(rigid.matrix) @ forces
         return found
 
     def on_free(self, forces: Array) -> Array:
@@ -143,6 +160,23 @@ class Constraints:
         return sum((-(S.T @ (S @ displacement)) for S in self.springs.values()), np.zeros(len(self.free)))
 
 
+def transform_of(free: IntArray, count: int, dependent: IntArray, shares: sp.csr_array) -> sp.csr_array:
+    """(dofs, z) Displacements of the free ones, T of `Constraints`.
+
+    Parameters
+    ----------
+    free, dependent, shares : as there
+    count : of the free displacements, z
+    """
+    given = free >= 0
+    start = np.concatenate([np.zeros(1, np.int32), np.cumsum(given, dtype=np.int32)])
+    columns = free[given].astype(np.int32)
+    T = rows_of(np.ones(len(columns)), columns, start, (len(free), count))
+    if len(dependent):
+        T = sp.csr_array(T + selection(dependent, len(free)).T @ (shares @ T))
+    return T
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Prescribed:
     """What is known before anything is solved for.
@@ -190,18 +224,13 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
     free[unknown] = np.arange(len(unknown))
     free[follows] = -2
     free = np.where(given.held, -1, free[leader])
-    given_rows = free >= 0
-    start = np.concatenate([np.zeros(1, np.int32), np.cumsum(given_rows, dtype=np.int32)])
-    columns = free[given_rows].astype(np.int32)
-    T = rows_of(np.ones(len(columns)), columns, start, (total, len(unknown)))
     dependent = np.flatnonzero(free == -2)
     if len(dependent):
         shares = shares[np.searchsorted(np.flatnonzero(follows), leader[dependent])]
-        T = sp.csr_array(T + selection(dependent, total).T @ (shares @ T))
     narrow = index_type(total)
     made = Constraints(
         free=free.astype(narrow),
-        transform=T,
+        transform=transform_of(free, len(unknown), dependent, shares),
         prescribed={},
         springs=make_springs(space, model) if model.foundations else {},
         owner=given.owner.astype(narrow),
@@ -209,7 +238,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
         dependent=dependent,
         shares=shares,
     )
-    return replace(made, prescribed={name: made.completed(u) for name, u in given.values.items()})
+    return made.prescribing({name: made.completed(u) for name, u in given.values.items()})
 
 
 def _prescribed(space: Space, model: Model, links: Links | None, without: Collection[str]) -> _Prescribed:

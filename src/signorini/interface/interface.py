@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, extent
+from signorini.arrays import Array, BoolArray, IntArray
 from signorini.errors import InputError
+from signorini.fem.rigid_motions import RigidMotions
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.frames import LEAST_SINE, along_tangents, tangents
@@ -139,11 +140,11 @@ class Interface:
         """B^T, asked for in every round of small models."""
         return transposed(self.B)
 
-    def felt(self, motions: sp.csr_array) -> sp.csr_array:
-        """(d n, k) What the pairs see of motions (dofs, k), ``B X``; the last ones are not asked twice."""
+    def felt(self, rigid: RigidMotions) -> sp.csr_array:
+        """(d n, k) What the pairs see of k rigid motions X, ``B X``; the last ones are not asked twice."""
         known = self.__dict__.get("_felt")
-        if known is None or known[0] is not motions:
-            known = self.__dict__["_felt"] = motions, sp.csr_array(self.B @ motions)
+        if known is None or known[0] is not rigid:
+            known = self.__dict__["_felt"] = rigid, sp.csr_array(self.B @ rigid.seen_by(self.B.indices))
         return known[1]
 
     @property
@@ -230,7 +231,7 @@ def make_interface(
     cohesion = None
     if any(model.contacts[i].cohesion for i in chosen):
         bonds = [contact.cohesion for contact in model.contacts]
-        gap, cohesion = bonded(bonds, index, gap, area, float(extent(space.mesh.points).max()))
+        gap, cohesion = bonded(bonds, index, gap, area, float(space.mesh.extent.max()))
     B = relative_rows(space, model, parts, normals, axes, still)
     if model.twists:
         normals, axes = with_hoop(normals, axes)
@@ -313,7 +314,7 @@ def _of_shared_nodes(space: Space, model: Model, node: IntArray, rubs: BoolArray
     shared = np.bincount(node)[node] > 1
     if not shared.any():
         return np.zeros(len(node))
-    size = float(extent(space.mesh.points).max())
+    size = float(space.mesh.extent.max())
     softest = min(body.material.smallest_modulus for body in model.bodies)
     return np.where(shared & rubs, _SHARED_COMPLIANCE * size / softest, 0.0)
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, among, distinct, frozen
+from signorini.arrays import Array, IntArray, among, distinct, elsewhere, extent, frozen, stored
 from signorini.errors import InputError
 
 NODES_PER_PLANE_CELL = {"triangle": 3, "quad": 4, "triangle6": 6, "quad8": 8, "quad9": 9}
@@ -87,6 +88,7 @@ Facets = IntArray | tuple[IntArray, ...]
 """Of a boundary: an array (m, k) of their nodes; in space a tuple of such arrays where they differ in k."""
 
 
+@elsewhere("points", "cells", "bodies", "node_numbers", "cell_numbers")
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Mesh:
     """Points, cells and the names of bodies, boundaries and node sets.
@@ -195,9 +197,34 @@ class Mesh:
         return merged[0] if len(merged) == 1 else tuple(merged)
 
     @property
+    def number_of_nodes(self) -> int:
+        """Nodes, those of no cell too."""
+        return int(stored(self, "points").shape[0])
+
+    @property
+    def dimension(self) -> int:
+        """Coordinates of a node, 2 or 3."""
+        return int(stored(self, "points").shape[1])
+
+    @property
+    def shapes(self) -> dict[str, tuple[int, int]]:
+        """Of every family how many cells there are, and how many nodes each has."""
+        return {family: nodes.shape for family, nodes in stored(self, "cells").items()}
+
+    @property
     def number_of_cells(self) -> int:
         """Cells of all families together."""
-        return sum(len(nodes) for nodes in self.cells.values())
+        return sum(number for number, _ in self.shapes.values())
+
+    @cached_property
+    def extent(self) -> Array:
+        """(d,) Size of the box around all nodes, length."""
+        return extent(self.points)
+
+    def places_of(self, nodes: IntArray) -> Array:
+        """(k, d) Points of some nodes, length."""
+        found: Array = stored(self, "points")[nodes]
+        return found
 
     @property
     def labels(self) -> IntArray:

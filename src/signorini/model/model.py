@@ -129,7 +129,7 @@ class Model(Drawable):
     @property
     def dimension(self) -> int:
         """Of space: 2 or 3."""
-        return int(self.mesh.points.shape[1])
+        return self.mesh.dimension
 
     @property
     def axisymmetric(self) -> bool:
@@ -154,7 +154,7 @@ class Model(Drawable):
     @property
     def number_of_dofs(self) -> int:
         """Displacements of all nodes of the mesh."""
-        return len(self.mesh.points) * self.components
+        return self.mesh.number_of_nodes * self.components
 
     def body_of_cells(self) -> IntArray:
         """For every cell the index of its body, (m,)."""

@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from signorini.arrays import Array, IntArray
+from signorini.distributed.mesh_rows import at_hand
 from signorini.distributed.ranks import Team, several_ranks
 from signorini.distributed.shares import FieldShare, shares
 from signorini.model.model import Model
@@ -70,7 +71,8 @@ class FieldsOnRanks:
         self._team, self._number = team, team.kept(self)
         self._nodes: list[IntArray] = []
         self._writing: list[bool] = []
-        team.everywhere(_hold, self._number, pieces=self._kept(shares(model, owner, team.size)))
+        with at_hand(model.mesh):
+            team.everywhere(_hold, self._number, pieces=self._kept(shares(model, owner, team.size)))
 
     def _kept(self, made: Iterator[FieldShare]) -> Iterator[FieldShare]:
         for share in made:

@@ -24,7 +24,7 @@ def results_bytes(model: Model) -> float:
     ----------
     model : of the state
     """
-    return _RESULTS + _RESULTS_NODE[model.dimension] * len(model.mesh.points)
+    return _RESULTS + _RESULTS_NODE[model.dimension] * model.mesh.number_of_nodes
 
 
 def shared_states(model: Model) -> int:
@@ -34,4 +34,4 @@ def shared_states(model: Model) -> int:
     ----------
     model : of the states
     """
-    return int(_SHARE * available_memory() / (_STRESSES_NODE * max(1, len(model.mesh.points))))
+    return int(_SHARE * available_memory() / (_STRESSES_NODE * max(1, model.mesh.number_of_nodes)))

@@ -42,7 +42,7 @@ def summary(history: History, seconds: Mapping[str, float], deck: str = "") -> d
         "thickness": model.thickness,
         "units": model.units,
         "size": {
-            "nodes": len(model.mesh.points),
+            "nodes": model.mesh.number_of_nodes,
             "elements": model.mesh.number_of_cells,
             "dofs": model.number_of_dofs,
             "contact_pairs": history.pairs,

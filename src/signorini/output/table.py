@@ -35,7 +35,7 @@ def history_table(history: History, *, failure: bool = True) -> str:
     mesh, model = history.model.mesh, history.model
     lines = [
         model.title or "untitled",
-        f"{model.kind}, {len(mesh.points)} nodes, {mesh.number_of_cells} elements, {history.pairs} contact pairs, "
+        f"{model.kind}, {mesh.number_of_nodes} nodes, {mesh.number_of_cells} elements, {history.pairs} contact pairs, "
         f"back end {history.backend}",
     ]
     for number, step in enumerate(history.steps, start=1):

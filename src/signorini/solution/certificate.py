@@ -118,7 +118,7 @@ def certify(
     -------
     Certificate; every number infinite where something is not finite or a body has left
     """
-    interface, constraints, scale, motions = system.interface, system.constraints, system.scale, system.motions
+    interface, constraints, scale, rigid = system.interface, system.constraints, system.scale, system.rigid
     (u, external), r = state.nodal, state.forces
     if not (np.isfinite(u).all() and np.isfinite(r).all()) or np.abs(u).max(initial=0.0) > _MAX_LENGTHS * scale.length:
         return Certificate(equilibrium=np.inf, penetration=np.inf, tension=np.inf, cone=np.inf, complementarity=np.inf)
@@ -127,7 +127,7 @@ def certify(
     if state.plastic is not None:
         applied = applied + state.plastic.forces
     residual = constraints.on_free(system.K @ u - applied)
-    balance = constraints.resultants(motions, external + constraints.foundation_forces(u) + of_pairs)
+    balance = constraints.resultants(rigid, external + constraints.foundation_forces(u) + of_pairs)
     moved = (interface.motion(u) + interface.give(r, state.borne)) / scale.length
     gap = state.point.gap / scale.length + moved[0]
     normal, tangential = r[0] / scale.force, r[1:] / scale.force
@@ -147,7 +147,7 @@ def certify(
     equilibrium = float(np.maximum(_largest(np.abs(residual)), _largest(np.abs(balance)))) / scale.force
     rounding = 0.0
     if equilibrium > TOLERANCE:
-        rounding = _rounding(system.K, u, motions, scale.force)
+        rounding = _rounding(system.K, u, rigid.matrix, scale.force)
         # the forces of slender bodies cancel but for digits that the terms of K u have lost
         residual = constraints.on_free(internal_forces(system.K, u) - applied)
         if yielding is None or not np.abs(yielding(residual)).max(initial=0.0) <= _MOST_ROUNDING * scale.length:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import scipy.sparse as sp
 
 from signorini.arrays import Array, BoolArray
+from signorini.fem.rigid_motions import RigidMotions
 from signorini.fem.supports import Constraints
 from signorini.interface.interface import Interface
 from signorini.plasticity.bodies import YieldingBodies
@@ -23,7 +24,7 @@ class DiscreteModel:
     K : (dofs, dofs) stiffness of bodies and elastic foundations, supports not applied
     constraints : what supports hold and prescribe
     interface : the pairs, with their B and their law
-    motions : (dofs, k) rigid motions of all parts, see :func:`signorini.fem.rigid.rigid_motions`
+    rigid : motions of all parts
     scale : sizes of forces and lengths
     absent : (n,) pairs whose contact is switched off: the law of contact is not asked of them
     yielding : the points of the bodies that yield; None: none does
@@ -32,7 +33,7 @@ class DiscreteModel:
     K: sp.csr_array
     constraints: Constraints
     interface: Interface
-    motions: sp.csr_array
+    rigid: RigidMotions
     scale: Scale
     absent: BoolArray
     yielding: YieldingBodies | None = None

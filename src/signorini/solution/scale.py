@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from signorini.arrays import Array, extent
+from signorini.arrays import Array
 from signorini.fem.space import Space
 from signorini.interface.interface import Interface
 from signorini.model.model import Model
@@ -122,7 +122,7 @@ def data_scale(space: Space, model: Model, loading: Loading, interface: Interfac
         imposed=imposed,
         squeezed=squeezed,
         loaded=loaded,
-        size=float(extent(space.mesh.points).max()),
+        size=float(space.mesh.extent.max()),
     )
 
 

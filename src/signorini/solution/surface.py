@@ -31,7 +31,7 @@ def arc_length(model: Model, result: ContactResult) -> Array:
     """
     way, length = np.full(len(result.node), np.nan), 0.0
     tangents = (result.tangents[:, 0] if result.twists else result.tangents)[:, : model.dimension]
-    places = model.mesh.points[result.node]
+    places = model.mesh.places_of(result.node)
     for chain, along in _chains(*_lines(model, result)):
         turned = np.vdot(np.diff(places[chain], axis=0), tangents[chain[1:]]) < 0.0
         way[chain] = length + (along[-1] - along if turned else along)
