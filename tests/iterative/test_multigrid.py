@@ -10,7 +10,7 @@ import scipy.sparse as sp
 from signorini.engine.prepare import prepare
 from signorini.gallery.cubes import cubes
 from signorini.iterative.aggregation import aggregated, largest_eigenvalue
-from signorini.iterative.multigrid import Multigrid
+from signorini.iterative.multigrid import Multigrid, _inverse
 from signorini.iterative.springs import PairSprings
 from signorini.linalg._sweeps import prolong, restrict, sweep_back, sweep_from_zero, with_lanes
 from signorini.linalg.krylov import conjugate_gradients
@@ -141,6 +141,17 @@ def test_springs_of_some_pairs_are_those_of_fewer_bodies(bodies):
     level = bodies.preconditioner.under(fewer.B, own).levels[0]
     whole = (bodies.K.whole + added(fewer, own)).toarray()
     np.testing.assert_allclose(bodies.K.diagonal.max() * level.A.whole.toarray(), whole, atol=SINGLE * whole.max())
+
+
+@pytest.mark.parametrize("rank", [0, 3, 17, 20])
+def test_the_inverse_on_the_coarsest_level_solves_what_can_be_solved(rank):
+    """Whatever motions nothing resists, and however stiff the others are."""
+    rows = np.random.default_rng(6).standard_normal((rank, 20)) * np.geomspace(1e-30, 1e-28, rank)[:, None]
+    A = rows.T @ rows
+    found = _inverse(A)
+    np.testing.assert_array_equal(found, found.T)
+    np.testing.assert_allclose(A @ found @ A, A, atol=1e-9 * np.abs(A).max(initial=0.0))
+    assert np.linalg.eigvalsh(found).min() >= -1e-12 * np.abs(found).max()
 
 
 @pytest.mark.parametrize("parts", [(0.0, 0.0), (1.0, 0.0), (1.0, 0.1), (1.0, 1.0)])

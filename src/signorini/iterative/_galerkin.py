@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from signorini.arrays import Array, Int32Array, IntArray
+from signorini.arrays import Array, Int32Array, IntArray, RealArray
 from signorini.compilation import kernel
 from signorini.linalg._block_rows import scatter_row
 
@@ -15,12 +15,12 @@ def restrict_half(
     block: tuple[int, ...],
     coarse_block: tuple[int, ...],
     wide: tuple[int, ...],
-    A: tuple[Int32Array, Int32Array, Array, Array],
+    A: tuple[Int32Array, Int32Array, RealArray, Array],
     P: tuple[Int32Array, Int32Array, Array],
     pattern: tuple[Int32Array, Int32Array],
     made: Array,
 ) -> None:
-    """Add ``P' Y`` with ``Y = (L + D / 2) P`` to a matrix whose pattern has room for it; with its transpose: ``P' A P``.
+    """Add ``P' Y``, ``Y = (L + D / 2) P``, to a matrix whose pattern has room for it; with its transpose: ``P' A P``.
 
     Parameters
     ----------
