@@ -55,7 +55,8 @@ class SprungLevel:
         A = self.level.A
         A.lower[self.own], A.diagonal[self.nodes] = self.bodies, self.held
         parts = motions.indptr, motions.indices, motions.data
-        add_springs(parts, springs, (A.indptr, A.indices), A.lower, A.diagonal)
+        pair, block = (size * (0,) for size in motions.blocksize)
+        add_springs(pair, block, parts, springs, (A.indptr, A.indices), A.lower, A.diagonal)
         self.level.inverses[self.nodes] = _inverses(A.diagonal[self.nodes])
 
 
