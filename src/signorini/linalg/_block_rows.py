@@ -109,6 +109,7 @@ def gather_row(
 
     Parameters
     ----------
+    _ : Numba's context of types
     rows, columns : tuples of d and of q items
     data : (k, d, q)
     x : (m, lanes(q))
@@ -149,7 +150,7 @@ def scatter_row(
 
     Parameters
     ----------
-    rows, columns, data, indices, begin, end : see `gather_row`
+    _, rows, columns, data, indices, begin, end : see `gather_row`
     given : (d,)
     sums : (m, lanes(q)); what is behind q values becomes anything
     """
