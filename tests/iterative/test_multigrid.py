@@ -10,11 +10,15 @@ import scipy.sparse as sp
 from signorini.engine.prepare import prepare
 from signorini.gallery.cubes import cubes
 from signorini.iterative.aggregation import aggregated, largest_eigenvalue
-from signorini.iterative.multigrid import Multigrid
+from signorini.iterative.multigrid import Multigrid, _inverse
 from signorini.iterative.springs import PairSprings
-from signorini.linalg._sweeps import prolong, restrict, sweep_back, sweep_from_zero
+from signorini.linalg._sweeps import prolong, restrict, sweep_back, sweep_from_zero, with_lanes
 from signorini.linalg.krylov import conjugate_gradients
 from signorini.linalg.symmetric_blocks import SymmetricBlocks
+from signorini.linalg.vcycle import _shares
+from signorini.meshing.solid import box
+from signorini.model.conditions import Support
+from signorini.model.mesh import join
 
 SINGLE = 3e-7  # of the largest entry: rounding of cycles, which are in single precision
 
@@ -48,23 +52,26 @@ def test_sweeps_are_those_of_triangles(d):
     below = A.below.toarray()
     lower = below + A.on_diagonal.toarray()
     b = np.random.default_rng(8).standard_normal(20 * d)
-    x, residual = sweep_from_zero(*parts, b.reshape(-1, d))
-    np.testing.assert_allclose(lower @ x.ravel(), b, atol=1e-12)
-    np.testing.assert_allclose(residual.ravel(), b - whole @ x.ravel(), atol=1e-12)
-    y = x.copy()
-    sweep_back(*parts, b.reshape(-1, d), y)
-    np.testing.assert_allclose(lower.T @ y.ravel(), b - below @ x.ravel(), atol=1e-12)
+    given = with_lanes(b.reshape(-1, d))
+    x, residual = sweep_from_zero(*parts, given)
+    first = x[:, :d].flatten()
+    np.testing.assert_allclose(lower @ first, b, atol=1e-12)
+    np.testing.assert_allclose(residual[:, :d].ravel(), b - whole @ first, atol=1e-12)
+    sweep_back(*parts, given, x)
+    np.testing.assert_allclose(lower.T @ x[:, :d].ravel(), b - below @ first, atol=1e-12)
 
 
-def test_prolongation_and_restriction_are_transposed():
+@pytest.mark.parametrize(("d", "e"), [(1, 1), (2, 3), (3, 5), (3, 6), (6, 6)])
+def test_prolongation_and_restriction_are_transposed(d, e):
     rng = np.random.default_rng(3)
-    P = sp.bsr_array(np.kron(rng.random((7, 4)) < 0.4, np.ones((3, 6))) * rng.random((21, 24)), blocksize=(3, 6))
-    parts, fine, coarse = (3 * (0,), P.indptr, P.indices, P.data), rng.random((7, 3)), rng.random((4, 6))
-    up, down = fine.copy(), coarse.copy()
-    prolong(*parts, coarse, up)
-    restrict(*parts, fine, down)
-    np.testing.assert_allclose(up.ravel(), fine.ravel() + P @ coarse.ravel(), atol=1e-14)
-    np.testing.assert_allclose(down.ravel(), coarse.ravel() + P.T @ fine.ravel(), atol=1e-14)
+    whole = np.kron(rng.random((7, 4)) < 0.4, np.ones((d, e))) * rng.random((7 * d, 4 * e))
+    P = sp.bsr_array(whole, blocksize=(d, e))
+    parts, fine, coarse = (d * (0,), e * (0,), P.indptr, P.indices, P.data), rng.random((7, d)), rng.random((4, e))
+    up, down = with_lanes(fine), with_lanes(coarse)
+    prolong(*parts, with_lanes(coarse), up)
+    restrict(*parts, with_lanes(fine), down)
+    np.testing.assert_allclose(up[:, :d].ravel(), fine.ravel() + P @ coarse.ravel(), atol=1e-14)
+    np.testing.assert_allclose(down[:, :e].ravel(), coarse.ravel() + P.T @ fine.ravel(), atol=1e-14)
 
 
 def test_coarser_matrices_are_what_prolongations_leave_of_finer_ones(bodies):
@@ -136,6 +143,17 @@ def test_springs_of_some_pairs_are_those_of_fewer_bodies(bodies):
     np.testing.assert_allclose(bodies.K.diagonal.max() * level.A.whole.toarray(), whole, atol=SINGLE * whole.max())
 
 
+@pytest.mark.parametrize("rank", [0, 3, 17, 20])
+def test_the_inverse_on_the_coarsest_level_solves_what_can_be_solved(rank):
+    """Whatever motions nothing resists, and however stiff the others are."""
+    rows = np.random.default_rng(6).standard_normal((rank, 20)) * np.geomspace(1e-30, 1e-28, rank)[:, None]
+    A = rows.T @ rows
+    found = _inverse(A)
+    np.testing.assert_array_equal(found, found.T)
+    np.testing.assert_allclose(A @ found @ A, A, atol=1e-9 * np.abs(A).max(initial=0.0))
+    assert np.linalg.eigvalsh(found).min() >= -1e-12 * np.abs(found).max()
+
+
 @pytest.mark.parametrize("parts", [(0.0, 0.0), (1.0, 0.0), (1.0, 0.1), (1.0, 1.0)])
 def test_every_state_of_contact_takes_the_same_few_iterations(bodies, parts):
     own = springs(bodies, *parts)
@@ -143,3 +161,27 @@ def test_every_state_of_contact_takes_the_same_few_iterations(bodies, parts):
     cycle, more = bodies.preconditioner.under(bodies.B, own), added(bodies, own)
     _, count = conjugate_gradients(lambda v: bodies.K @ v + more @ v, cycle, force, 1e-8)
     assert count <= 32
+
+
+def test_what_two_cycles_of_a_coarser_level_leave_is_least():
+    """Over the eigenvalues that they are made for: the same at both ends and, with another sign, once between."""
+    for least in (0.2, 0.4, 0.9):
+        first, second = _shares(least)
+        t = np.linspace(least, 1.0, 101)
+        left = 1.0 - first * t - second * t**2
+        np.testing.assert_allclose(left[[0, 50, 100]] / np.abs(left).max(), [1.0, -1.0, 1.0], rtol=1e-9)
+
+
+@pytest.mark.slow
+def test_a_thin_plate_takes_few_iterations():
+    """Whose bending V-cycles, which go to coarse levels once, take 67 iterations for."""
+    across, up = np.linspace(-2.0, 2.0, 61), np.linspace(0.0, 0.1, 4)
+    top = np.linspace(-0.1, 0.1, 4)
+    mesh = join({"lower": box(x=across, y=across, z=up - 0.1), "upper": box(x=top, y=top, z=top + 0.1)})
+    edges = [Support(f"lower.{side}", u=(0.0, 0.0, 0.0)) for side in ("left", "right")]
+    model = replace(cubes(2), mesh=mesh, supports=[*edges, Support("upper.top", u=(0.0, 0.0, -0.01))])
+    plate = prepare(model, backend="iterative").solver.bodies
+    own = springs(plate, 1.0, 1.0)
+    force = np.random.default_rng(0).standard_normal(plate.K.shape[0])
+    _, count = plate.solved(own, plate.preconditioner.under(plate.B, own), force, 1e-8)
+    assert count <= 48

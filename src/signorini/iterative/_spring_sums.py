@@ -8,18 +8,24 @@ import numpy as np
 from signorini.arrays import Array, Int32Array, RealArray
 from signorini.compilation import kernel, part
 
+_FREE_SUMS = {"contract", "reassoc", "nsz"}  # of the compiler: for sums that may be formed in any order
 
-@part()
-def _add(motion: Array, force: Array, block: RealArray) -> None:
+
+@part(fastmath=_FREE_SUMS)
+def _add(pair: tuple[int, ...], block: tuple[int, ...], motion: Array, force: Array, made: RealArray) -> None:
     """Add ``motion' force`` to a block, (e, e); motion and force (d, e)."""
-    for p in range(block.shape[0]):
-        for q in range(block.shape[1]):
-            for r in range(len(force)):
-                block[p, q] += motion[r, p] * force[r, q]
+    for p in range(len(block)):
+        for q in range(len(block)):
+            total = motion[0, p] * force[0, q]
+            for r in range(1, len(pair)):
+                total += motion[r, p] * force[r, q]
+            made[p, q] += total
 
 
-@kernel()
+@kernel(fastmath=_FREE_SUMS)
 def add_springs(
+    pair: tuple[int, ...],
+    block: tuple[int, ...],
     motions: tuple[Int32Array, Int32Array, Array],
     springs: Array,
     matrix: tuple[Int32Array, Int32Array],
@@ -30,28 +36,27 @@ def add_springs(
 
     Parameters
     ----------
+    pair, block : d and e items
     motions : M of a pairs, indptr (a + 1,), indices and data (k, d, e) of its blocks
     springs : S, (a, d, d)
     matrix, lower, diagonal : indptr and indices, ascending in every row; blocks (e, e), which are added to
     """
     begin, nodes, data = motions
     indptr, indices = matrix
-    d, e = data.shape[1], data.shape[2]
-    force = np.empty((d, e))
+    force = np.empty((len(pair), len(block)))
     for i in range(len(begin) - 1):
         for t in range(begin[i], begin[i + 1]):
-            for p in range(d):
-                for q in range(e):
+            for p in range(len(pair)):
+                for q in range(len(block)):
                     total = 0.0
-                    for r in range(d):
+                    for r in range(len(pair)):
                         total += springs[i, p, r] * data[t, r, q]
                     force[p, q] = total
+            column = nodes[t]
             for s in range(begin[i], begin[i + 1]):
-                row, column = nodes[s], nodes[t]
-                if column > row:
-                    continue
+                row = nodes[s]
                 if column < row:
                     place = indptr[row] + np.searchsorted(indices[indptr[row] : indptr[row + 1]], column)
-                    _add(data[s], force, lower[place])
-                else:
-                    _add(data[s], force, diagonal[row])
+                    _add(pair, block, data[s], force, lower[place])
+                elif column == row:
+                    _add(pair, block, data[s], force, diagonal[row])

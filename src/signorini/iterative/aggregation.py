@@ -10,6 +10,8 @@ import scipy.sparse as sp
 from scipy.linalg import eigvalsh_tridiagonal
 
 from signorini.arrays import Array
+from signorini.iterative._galerkin import mirrored, restrict_half
+from signorini.linalg._block_rows import lanes
 from signorini.linalg.symmetric_blocks import SymmetricBlocks
 
 _DAMPING = 4.0 / 3.0  # over the largest eigenvalue: of the step of Jacobi's method that smooths a prolongation
@@ -114,9 +116,21 @@ def _graph(A: SymmetricBlocks) -> Any:
 
 
 def _coarser(A: SymmetricBlocks, P: Any) -> SymmetricBlocks:
-    """``P' A P``: with L before the diagonal D it is ``X + X' + P' D P``, ``X = P' L P``."""
-    across = P.T.tobsr()
-    half = sp.bsr_array(across @ (A.below @ P))
-    made = sp.bsr_array(half + half.T + across @ (A.on_diagonal @ P))
-    made.sort_indices()
-    return SymmetricBlocks.of(made)
+    """``P' A P``."""
+    d, e = P.blocksize
+    m, size = P.shape[0] // d, P.shape[1] // e
+    reached = sp.csr_matrix((np.ones(len(P.indices), np.int32), P.indices, P.indptr), shape=(m, size))
+    joined = sp.csr_array(reached.T @ sp.csr_matrix(_graph(A) @ reached))
+    joined.sort_indices()
+    ends, columns = (each.astype(np.int32, copy=False) for each in (joined.indptr, joined.indices))
+    rows = np.zeros((e * len(columns), lanes(e)))
+    fine = A.indptr, A.indices, A.lower, A.diagonal
+    restrict_half(d * (0,), e * (0,), lanes(e) * (0,), fine, (P.indptr, P.indices, P.data), (ends, columns), rows)
+    blocks = rows.reshape(-1, e, lanes(e))[:, :, :e]
+    row = np.repeat(np.arange(size), np.diff(ends))
+    own, before = np.flatnonzero(columns == row), np.flatnonzero(columns < row)
+    across = mirrored((ends, columns))
+    indptr = np.zeros(size + 1, np.int32)
+    np.cumsum(np.bincount(row[before], minlength=size), out=indptr[1:])
+    lower, diagonal = (blocks[each] + blocks[across[each]].transpose(0, 2, 1) for each in (before, own))
+    return SymmetricBlocks(indptr=indptr, indices=columns[before], lower=lower, diagonal=diagonal)

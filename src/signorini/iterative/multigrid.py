@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
+from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray, SingleArray
 from signorini.iterative._spring_sums import add_springs
@@ -54,7 +55,8 @@ class SprungLevel:
         A = self.level.A
         A.lower[self.own], A.diagonal[self.nodes] = self.bodies, self.held
         parts = motions.indptr, motions.indices, motions.data
-        add_springs(parts, springs, (A.indptr, A.indices), A.lower, A.diagonal)
+        pair, block = (size * (0,) for size in motions.blocksize)
+        add_springs(pair, block, parts, springs, (A.indptr, A.indices), A.lower, A.diagonal)
         self.level.inverses[self.nodes] = _inverses(A.diagonal[self.nodes])
 
 
@@ -92,7 +94,7 @@ class Multigrid:
         count = np.arange(len(each) + 1)
         pairs = sp.bsr_array((each, count[:-1], count), shape=(last.shape[0], last.shape[0]))
         whole = coarsest + (last.T @ (pairs @ last)).toarray()
-        inverse = np.linalg.pinv(whole, rcond=_FREE_MOTION, hermitian=True)
+        inverse = _inverse(whole)
         levels = tuple(level.level for level in sprung)
         return VCycle(levels=levels, coarsest=lambda b: np.asarray(inverse @ b), unit=self._unit)
 
@@ -158,3 +160,16 @@ def _sprung(level: CoarsenedMatrix, motions: Any, unit: float) -> SprungLevel:
 def _inverses(blocks: Array) -> SingleArray:
     """(m, d, d) Of symmetric blocks, of motions that something resists."""
     return np.asarray(np.linalg.pinv(blocks, rcond=_FREE_MOTION, hermitian=True), dtype=np.float32)
+
+
+def _inverse(A: Array) -> Array:
+    """(n, n) Of a positive semidefinite matrix; of motions that nothing resists as many are held as there are.
+
+    By a factorisation with pivots, which takes half of the time of eigenvalues.
+    """
+    factor, order, rank, _ = lapack.dpstrf(A, tol=_FREE_MOTION * A.diagonal().max(initial=0.0), lower=1)
+    kept = order[:rank] - 1
+    part = np.tril(lapack.dpotri(factor[:rank, :rank], lower=1)[0]) if rank else np.zeros((0, 0))
+    made = np.zeros(A.shape)
+    made[np.ix_(kept, kept)] = part + np.tril(part, -1).T
+    return made

@@ -3,9 +3,8 @@
 
 Row i has the blocks ``lower[indptr[i]:indptr[i + 1]]``, (d, d) each, in the columns ``indices[...]`` before i, and
 ``diagonal[i]``. What a row has beyond its diagonal is what later rows have before theirs, transposed. A tuple of d
-items tells the compiler how long the inner loops are; the blocks of nodes in space, d = 3, are written out, so that
-sums stay in registers. Sums have the precision of what is summed: they begin with their first term and not with a
-zero, which would be of double precision.
+items tells the compiler how large blocks are. Vectors are (m, d), those that a loop goes along in an order of its own
+(m, lanes(d)), of which the first d columns count (`_block_rows`). Sums have the precision of what is summed.
 """
 
 from __future__ import annotations
@@ -14,112 +13,71 @@ import numpy as np
 
 from signorini.arrays import Int32Array, RealArray
 from signorini.compilation import kernel, part
+from signorini.linalg._block_rows import gather_row, lanes, scatter_row
 
 _FREE_SUMS = {"contract", "reassoc", "nsz"}  # of the compiler: for sums that may be formed in any order
 
 
-@part(fastmath=_FREE_SUMS)
-def _taken(
-    block: tuple[int, ...],
-    indptr: Int32Array,
-    indices: Int32Array,
-    lower: RealArray,
-    i: int,
-    x: RealArray,
-    left: RealArray,
-) -> None:
-    """Take from left, (d,), what row i has before its diagonal, times x."""
-    d = len(block)
-    if d == 3:
-        one, two, three = left[0], left[1], left[2]
-        for k in range(indptr[i], indptr[i + 1]):
-            j = indices[k]
-            u, v, w = x[j, 0], x[j, 1], x[j, 2]
-            one -= lower[k, 0, 0] * u + lower[k, 0, 1] * v + lower[k, 0, 2] * w
-            two -= lower[k, 1, 0] * u + lower[k, 1, 1] * v + lower[k, 1, 2] * w
-            three -= lower[k, 2, 0] * u + lower[k, 2, 1] * v + lower[k, 2, 2] * w
-        left[0], left[1], left[2] = one, two, three
-    else:
-        for k in range(indptr[i], indptr[i + 1]):
-            j = indices[k]
-            for p in range(d):
-                total = lower[k, p, 0] * x[j, 0]
-                for q in range(1, d):
-                    total += lower[k, p, q] * x[j, q]
-                left[p] -= total
+def with_lanes(values: RealArray) -> RealArray:
+    """(m, lanes(d)) Values (m, d) in rows that are as long as vector registers.
+
+    Examples
+    --------
+    >>> with_lanes(np.array([[1.0, 2.0, 3.0]])).tolist()
+    [[1.0, 2.0, 3.0, 0.0]]
+    """
+    m, d = values.shape
+    made = np.zeros((m, lanes(d)), values.dtype)
+    made[:, :d] = values
+    return made
 
 
 @part(fastmath=_FREE_SUMS)
-def _given(
-    block: tuple[int, ...],
-    indptr: Int32Array,
-    indices: Int32Array,
-    lower: RealArray,
-    i: int,
-    x: RealArray,
-    rest: RealArray,
-) -> None:
-    """Take from rest, (m, d), what the rows before i have in the column of i, times x[i]."""
-    d = len(block)
-    if d == 3:
-        u, v, w = x[i, 0], x[i, 1], x[i, 2]
-        for k in range(indptr[i], indptr[i + 1]):
-            j = indices[k]
-            rest[j, 0] -= lower[k, 0, 0] * u + lower[k, 1, 0] * v + lower[k, 2, 0] * w
-            rest[j, 1] -= lower[k, 0, 1] * u + lower[k, 1, 1] * v + lower[k, 2, 1] * w
-            rest[j, 2] -= lower[k, 0, 2] * u + lower[k, 1, 2] * v + lower[k, 2, 2] * w
-    else:
-        for k in range(indptr[i], indptr[i + 1]):
-            j = indices[k]
-            for q in range(d):
-                total = lower[k, 0, q] * x[i, 0]
-                for p in range(1, d):
-                    total += lower[k, p, q] * x[i, p]
-                rest[j, q] -= total
-
-
-@part(fastmath=_FREE_SUMS)
-def _times(block: tuple[int, ...], matrix: RealArray, given: RealArray, result: RealArray) -> None:
-    """Put a block times (d,) into result, (d,)."""
+def _solved(block: tuple[int, ...], inverse: RealArray, b: RealArray, sums: RealArray, x: RealArray) -> None:
+    """Put ``inverse (b - sums)`` into x and its negative into sums, all (d,)."""
     for p in range(len(block)):
-        total = matrix[p, 0] * given[0]
+        sums[p] = b[p] - sums[p]
+    for p in range(len(block)):
+        total = inverse[p, 0] * sums[0]
         for q in range(1, len(block)):
-            total += matrix[p, q] * given[q]
-        result[p] = total
+            total += inverse[p, q] * sums[q]
+        x[p] = total
+    for p in range(len(block)):
+        sums[p] = -x[p]
 
 
 @kernel(fastmath=_FREE_SUMS)
 def product(
     block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: RealArray, diagonal: RealArray, x: RealArray
 ) -> RealArray:
-    """``A x``, (m, d).
+    """``A x``, (m, lanes(d)).
 
     Parameters
     ----------
     block : d items
     indptr, indices, lower, diagonal : A
-    x : (m, d)
+    x : (m, lanes(d))
     """
-    rest = np.zeros_like(x)
-    left = np.empty(len(block), x.dtype)
+    result = np.zeros_like(x)
+    sums, own = np.empty(len(block), x.dtype), np.empty(len(block), x.dtype)
     for i in range(len(x)):
+        gather_row(block, block, lower, x, indices, indptr[i], indptr[i + 1], sums)
         for p in range(len(block)):
-            left[p] = 0.0
-        _taken(block, indptr, indices, lower, i, x, left)
-        _given(block, indptr, indices, lower, i, x, rest)
+            own[p] = x[i, p]
+        scatter_row(block, block, lower, own, indices, indptr[i], indptr[i + 1], result)
         for p in range(len(block)):
             total = 0.0
             for q in range(len(block)):
-                total += diagonal[i, p, q] * x[i, q]
-            rest[i, p] += left[p] - total
-    return -rest
+                total += diagonal[i, p, q] * own[q]
+            result[i, p] += sums[p] + total
+    return result
 
 
 @kernel(fastmath=_FREE_SUMS)
 def sweep_from_zero(
     block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, lower: RealArray, inverses: RealArray, b: RealArray
 ) -> tuple[RealArray, RealArray]:
-    """A forward sweep of Gauss-Seidel from zero over ``A x = b``: x and the residual ``b - A x``, both (m, d).
+    """A forward sweep of Gauss-Seidel from zero over ``A x = b``: x and the residual ``b - A x``, both (m, lanes(d)).
 
     What is left before the diagonal is what is not solved for yet, so that the residual is made of the other half.
 
@@ -128,16 +86,14 @@ def sweep_from_zero(
     block : d items
     indptr, indices, lower : A
     inverses : (m, d, d) of the blocks on its diagonal
-    b : (m, d)
+    b : (m, lanes(d))
     """
-    x, residual = np.empty_like(b), np.zeros_like(b)
-    left = np.empty(len(block), b.dtype)
+    x, residual = np.zeros_like(b), np.zeros_like(b)
+    sums = np.empty(len(block), b.dtype)
     for i in range(len(b)):
-        for p in range(len(block)):
-            left[p] = b[i, p]
-        _taken(block, indptr, indices, lower, i, x, left)
-        _times(block, inverses[i], left, x[i])
-        _given(block, indptr, indices, lower, i, x, residual)
+        gather_row(block, block, lower, x, indices, indptr[i], indptr[i + 1], sums)
+        _solved(block, inverses[i], b[i], sums, x[i])
+        scatter_row(block, block, lower, sums, indices, indptr[i], indptr[i + 1], residual)
     return x, residual
 
 
@@ -156,56 +112,60 @@ def sweep_back(
     Parameters
     ----------
     block, indptr, indices, lower, inverses, b : see `sweep_from_zero`
-    x : (m, d)
+    x : (m, lanes(d))
     """
     rest = b.copy()
-    left = np.empty(len(block), b.dtype)
+    sums = np.empty(len(block), b.dtype)
     for i in range(len(b) - 1, -1, -1):
-        for p in range(len(block)):
-            left[p] = rest[i, p]
-        _taken(block, indptr, indices, lower, i, x, left)
-        _times(block, inverses[i], left, x[i])
-        _given(block, indptr, indices, lower, i, x, rest)
+        gather_row(block, block, lower, x, indices, indptr[i], indptr[i + 1], sums)
+        _solved(block, inverses[i], rest[i], sums, x[i])
+        scatter_row(block, block, lower, sums, indices, indptr[i], indptr[i + 1], rest)
 
 
 @kernel(fastmath=_FREE_SUMS)
 def prolong(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: RealArray, coarse: RealArray, x: RealArray
+    block: tuple[int, ...],
+    coarse_block: tuple[int, ...],
+    indptr: Int32Array,
+    indices: Int32Array,
+    data: RealArray,
+    coarse: RealArray,
+    x: RealArray,
 ) -> None:
-    """Add ``P coarse`` to x, (m, d).
+    """Add ``P coarse`` to x, (m, lanes(d)).
 
     Parameters
     ----------
-    block : d items
+    block, coarse_block : d and e items
     indptr, indices, data : P, in blocks (d, e)
-    coarse : (k, e)
+    coarse : (k, lanes(e))
     """
+    sums = np.empty(len(block), x.dtype)
     for i in range(len(x)):
-        for k in range(indptr[i], indptr[i + 1]):
-            j = indices[k]
-            for p in range(len(block)):
-                total = data[k, p, 0] * coarse[j, 0]
-                for q in range(1, coarse.shape[1]):
-                    total += data[k, p, q] * coarse[j, q]
-                x[i, p] += total
+        gather_row(block, coarse_block, data, coarse, indices, indptr[i], indptr[i + 1], sums)
+        for p in range(len(block)):
+            x[i, p] += sums[p]
 
 
 @kernel(fastmath=_FREE_SUMS)
 def restrict(
-    block: tuple[int, ...], indptr: Int32Array, indices: Int32Array, data: RealArray, fine: RealArray, coarse: RealArray
+    block: tuple[int, ...],
+    coarse_block: tuple[int, ...],
+    indptr: Int32Array,
+    indices: Int32Array,
+    data: RealArray,
+    fine: RealArray,
+    coarse: RealArray,
 ) -> None:
-    """Add ``P' fine`` to coarse, (k, e).
+    """Add ``P' fine`` to coarse, (k, lanes(e)).
 
     Parameters
     ----------
-    block, indptr, indices, data : see `prolong`
-    fine : (m, d)
+    block, coarse_block, indptr, indices, data : see `prolong`
+    fine : (m, lanes(d))
     """
+    own = np.empty(len(block), fine.dtype)
     for i in range(len(fine)):
-        for k in range(indptr[i], indptr[i + 1]):
-            j = indices[k]
-            for q in range(coarse.shape[1]):
-                total = data[k, 0, q] * fine[i, 0]
-                for p in range(1, len(block)):
-                    total += data[k, p, q] * fine[i, p]
-                coarse[j, q] += total
+        for p in range(len(block)):
+            own[p] = fine[i, p]
+        scatter_row(block, coarse_block, data, own, indices, indptr[i], indptr[i + 1], coarse)

@@ -11,7 +11,7 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, Int32Array, IntArray, RealArray
 from signorini.linalg._lower_half import count_before, gather
-from signorini.linalg._sweeps import product
+from signorini.linalg._sweeps import product, with_lanes
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -109,5 +109,6 @@ class SymmetricBlocks:
     def __matmul__(self, x: Array) -> Array:
         """``A x``, (n,)."""
         d = self.size
-        moved = product(d * (0,), self.indptr, self.indices, self.lower, self.diagonal, x.reshape(-1, d))
-        return np.asarray(moved.ravel(), dtype=np.float64)
+        given = with_lanes(x.reshape(-1, d).astype(self.lower.dtype, copy=False))
+        moved = product(d * (0,), self.indptr, self.indices, self.lower, self.diagonal, given)
+        return np.asarray(moved[:, :d].ravel(), dtype=np.float64)
