@@ -27,8 +27,7 @@ import numpy as np
 
 import signorini as sg
 from benchmarks import command, page
-from signorini.distributed.mesh_rows import lend
-from signorini.distributed.ranks import Team, the_team
+from signorini.distributed.ranks import Team, lend, the_team
 from signorini.engine.prepare import prepare
 from signorini.engine.solve import solve_prepared
 from signorini.gallery.cubes import cubes

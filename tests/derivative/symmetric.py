@@ -99,3 +99,21 @@ def turning_alike(one=1.0):
         contacts=[sg.Contact("bottom", sg.Plane(point=(0, 0, 0), normal=(0, 0, 1)), friction=0.3, name="joint")],
         steps=[sg.Step(scale={"down": 1.0, "one": one, "other": 1.0})],
     )
+
+
+def flat_on_cones(seed, overlap=0.0):
+    """A flat block that touches a plane all along, on smooth cones, pressed and pulled; or overlaps it."""
+    random = np.random.default_rng(seed)
+    pull, friction = random.uniform(-9.0, 9.0, 2), random.uniform(0.1, 0.4)
+    plane = sg.Plane(point=(0, 0, 0), normal=(0, 0, 1))
+    return sg.Model(
+        sg.box(x=np.linspace(0.0, 1.0, 3), y=np.linspace(0.0, 1.2, 3), z=[0.0, 0.35, 0.7]),
+        bodies=[sg.Body("block", sg.Elastic(E=1000.0, nu=0.3))],
+        supports=[sg.Support("top", u=(0.0, 0.0, -0.03), name="down")],
+        loads=[sg.Load("right", traction=(*pull, 0.0), name="pull")],
+        contacts=[sg.Contact("bottom", plane, friction=friction, interference=overlap, name="joint")],
+        steps=[
+            sg.Step(scale={"down": 1.0, "pull": 0.3}, tolerance=0.5),
+            sg.Step(scale={"down": 1.0, "pull": 1.0}, tolerance=0.5),
+        ],
+    )

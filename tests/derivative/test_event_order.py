@@ -9,7 +9,7 @@ import pytest
 import signorini as sg
 from benchmarks import random_cones
 from signorini.derivative.functionals import value
-from tests.derivative.symmetric import random_squeezed, squeezed, squeezed_in_space, turning_alike
+from tests.derivative.symmetric import flat_on_cones, random_squeezed, squeezed, squeezed_in_space, turning_alike
 
 PEAK, WORK = sg.pressure("joint").peak, sg.dissipation()
 
@@ -66,11 +66,15 @@ def test_on_polygons_too(seed):
     beside(solution, low, high, outputs, lambda derivative: derivative.sides("load.one"), step)
 
 
-def limits(outputs, model_at, step):
-    """Derivatives of outputs to both sides of 1, of models beside it alone, as its own answer may be another one."""
-    views = [sg.solve(model_at(1.0 + part * step), tape=True)._taped.view for part in (-2, -1, 1, 2)]
-    low, below, above, high = ([value(output, view) for output in outputs] for view in views)
-    return [((b - a) / step, (d - c) / step) for a, b, c, d in zip(low, below, above, high, strict=True)]
+def limits(outputs, model_at, step, here=1.0):
+    """Derivatives of outputs to both sides of a number, of models beside it alone: its answer may be another one."""
+
+    def one_sided(way):
+        views = [sg.solve(model_at(here + way * part * step), tape=True)._taped.view for part in (1, 2, 4)]
+        one, two, four = (np.array([value(output, view) for output in outputs]) for view in views)
+        return way * (2.0 * (two - one) - 0.5 * (four - two)) / step  # to second order
+
+    return np.column_stack([one_sided(-1.0), one_sided(1.0)])
 
 
 @pytest.mark.slow
@@ -156,6 +160,40 @@ def test_a_history_on_smooth_cones_may_end_where_pairs_come_to_their_events_toge
     outputs = (PEAK, sg.force("joint", along=(0, 1, 0)), WORK)
     for output, sides in zip(outputs, limits(outputs, ended, 1e-6), strict=True):
         assert solution.derivative(output).sides("load.one") == pytest.approx(sides, rel=1e-5, abs=1e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [0, 3])
+def test_touching_all_along_on_smooth_cones(seed):
+    """What overlaps presses at once, with friction that turns later; what is apart closes in the first increment."""
+    solution = sg.solve(flat_on_cones(seed), tape=True)
+    outputs = (sg.force("joint", along=(1, 0, 0)), PEAK, WORK)
+    tangents = solution.tangent_sides(interference="joint")
+    for output, wanted in zip(outputs, limits(outputs, lambda q: flat_on_cones(seed, q), 3e-7, here=0.0), strict=True):
+        derivative = solution.derivative(output)
+        sides = derivative.sides("interference.joint")
+        assert sides == pytest.approx(wanted, rel=5e-6)
+        assert [tangent.of(output) for tangent in tangents] == pytest.approx(sides, rel=1e-9)
+        with pytest.raises(sg.InputError, match=r"touches without a force .* by 'interference.joint' has two sides"):
+            derivative.by("interference.joint")
+        assert derivative.by("friction.joint") == derivative.sides("friction.joint")[0]
+
+
+@pytest.mark.slow
+def test_what_tilts_a_side_that_touches_all_along_on_smooth_cones():
+    """To either side pairs press in one half at once, and those of the other half close."""
+    model, solution = flat_on_cones(1), sg.solve(flat_on_cones(1), tape=True)
+    x, y, z = model.mesh.points.T
+    motion = np.column_stack([0.0 * x, 0.0 * x, np.where(z > 0.5, 0.0, (x - 0.4) + 0.5 * (y - 0.7))])
+
+    def tilted(part):
+        return replace(model, mesh=replace(model.mesh, points=model.mesh.points + part * motion))
+
+    outputs = (sg.force("joint", along=(1, 0, 0)), sg.force("joint", along=(0, 0, 1)), WORK)
+    for output, wanted in zip(outputs, limits(outputs, tilted, 1e-7, here=0.0), strict=True):
+        low, high = solution.derivative(output).shape_sides(motion)
+        assert (low, high) == pytest.approx(wanted, rel=1e-5)
+        assert abs(low - high) > 1e-4 * abs(low)
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,8 @@ import pytest
 from signorini.arrays import stored
 from signorini.distributed import kept_rows, mesh_rows
 from signorini.distributed.kept_rows import RowsKept
-from signorini.distributed.mesh_rows import at_hand, lend, let_go
+from signorini.distributed.mesh_rows import at_hand, let_go
+from signorini.distributed.ranks import lend
 from signorini.fem.space import make_space
 from signorini.gallery.cubes import cubes
 from signorini.model.mesh import Mesh

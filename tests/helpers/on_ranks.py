@@ -12,7 +12,7 @@ import numpy as np
 
 import signorini as sg
 from signorini.distributed import kept_rows
-from signorini.distributed.mesh_rows import lend
+from signorini.distributed.ranks import lend
 from signorini.gallery.blocks import block_on_foundation, dragged_block, four_blocks, stacked_blocks
 from signorini.gallery.closures import block_on_a_bed
 from signorini.gallery.cubes import cubes

@@ -21,7 +21,7 @@ from signorini.cli.progress import progress
 from signorini.clock import Clock
 from signorini.deck import Deck
 from signorini.deck.keys import check_keys
-from signorini.distributed.mesh_rows import lend
+from signorini.distributed.ranks import lend
 from signorini.engine.condensation import refuse_unknown
 from signorini.engine.first_run import FIRST_SOLVE, compiles_first
 from signorini.engine.solve import solve

@@ -54,19 +54,19 @@ def weights(output: Output, view: HistoryView) -> dict[int, Weights]:
     return {i: Weights(h=h, r=r)}
 
 
-def weights_at_start(output: Output, view: HistoryView, rest: TapePoint) -> Weights:
-    """How an output changes with motions and friction of the pairs where the history begins, which take part in work.
+def weights_at_start(output: Output, view: HistoryView, ahead: TapePoint | None) -> Array:
+    """(2, d - 1, n) How work changes with motions and friction of pairs where a history begins, which has part in it.
 
     Parameters
     ----------
-    output, view : the output and the history
-    rest : its beginning, none of its points
+    output, view : the output and the history; outputs that are no work do not change
+    ahead : its beginning; None where that is one of its points
     """
-    found = Weights(h=np.zeros_like(view.motions(0)), r=np.zeros_like(view.motions(0)))
+    found = np.zeros((2, *view.motions(0)[1:].shape))
     for factor, part in output.parts if isinstance(output, WeightedSum) else ((1.0, output),):
-        if isinstance(part, Dissipation):
-            known = weights(part, replace(view, points=[rest, *view.points]))[0]
-            found = Weights(h=found.h + factor * known.h, r=found.r + factor * known.r)
+        if isinstance(part, Dissipation) and ahead is not None:
+            first = weights(part, replace(view, points=[ahead, *view.points]))[0]
+            found += factor * np.stack([first.h[1:], first.r[1:]])
     return found
 
 

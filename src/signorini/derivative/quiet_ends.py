@@ -68,7 +68,7 @@ class TriedLength:
         return np.asarray(along + self.rate * (begins + length))
 
     def to_side(self, turned: Array, way: float) -> TriedLength:
-        """The same with the pair that turns most to one side, 1 or -1, of what moves the angles by ``turned``."""
+        """With the pair that turns most to one side, 1 or -1, of what moves the angles by ``turned``."""
         alike = self.alike
         return replace(self, pair=int(alike[np.argmax(way * turned[alike])])) if len(alike) > 1 else self
 

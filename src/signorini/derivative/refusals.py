@@ -56,3 +56,15 @@ def refuse_tape(tape: Tape, model: Model) -> None:
         bolts = {bolt.label for bolt in prepared.model.bolts}
         if any(bolts & set(step.restore) for step in prepared.model.steps):
             raise InputError(f"{_UNKNOWN} locked bolts that a step restores")
+
+
+def has_sides_by_nodes(why: str, what: str) -> InputError:
+    """The refusal of derivatives node by node that have two sides, with what knows both of what is varied together.
+
+    Parameters
+    ----------
+    why : in words
+    what : was asked for
+    """
+    words = "profile_sides(contact, change) and shape_sides(motion) know both of what is varied together"
+    return InputError(f"{why}; {words}", where=(what,))

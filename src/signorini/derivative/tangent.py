@@ -51,7 +51,7 @@ class HistoryTangent:
     changes : what the parameter changes at every point
     load_factor : where it is asked for; None at the end
     ways : 1 upwards, -1 downwards, or both
-    at_start : (2, d - 1, n) what it changes of motions and friction where the history begins, on smooth cones
+    at_start : (2, d - 1, n) what it changes of motions and friction where the history begins
     """
 
     def __init__(
@@ -131,9 +131,7 @@ class HistoryTangent:
         view = self._history.view
         pairs = [(weight, self._changes[i]) for i, weight in weights(output, view).items()]
         terms = [np.vdot(weight.h, change.h) + np.vdot(weight.r, change.r) for weight, change in pairs]
-        if self._at_start.any():
-            first = weights_at_start(output, view, self._history.start.at_rest)
-            terms.append(np.vdot([first.h[1:], first.r[1:]], self._at_start))
+        terms.append(np.vdot(weights_at_start(output, view, self._history.start.ahead), self._at_start))
         return np.array(terms)
 
     def _of_peak(self, nodes: Sequence[AtNode]) -> float:
@@ -194,7 +192,7 @@ def tangent_sides(
             side.forward(change, way),
             load_factor if side is history else None,
             (way,),
-            history.at_start(change, way),
+            history.start.changes(GapRate.of(change), way),
         )
         for side, way in zip(history.beside(change, found, last, f"'{kind}.{name}'"), (-1.0, 1.0), strict=True)
     )

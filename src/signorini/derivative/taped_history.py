@@ -25,7 +25,7 @@ from signorini.derivative.one_sided import beside
 from signorini.derivative.parameters import change_of
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import AtOnce, Change, changed
-from signorini.derivative.refusals import refuse_tape
+from signorini.derivative.refusals import has_sides_by_nodes, refuse_tape
 from signorini.derivative.shared_events import SharedEvents
 from signorini.derivative.tape_points import tape_points
 from signorini.derivative.tied_peaks import TiedPeak, at_peaks, tied_peaks
@@ -117,7 +117,7 @@ class TapedHistory:
         """
         key = change, way if self.start.moved(GapRate.of(change)).any() else 1.0
         if key not in self._forward:
-            self._forward[key] = self._along(change, self._remembered(change, way))
+            self._forward[key] = self._along(change, self.start.changes(GapRate.of(change), way)[0])
         return self._forward[key]
 
     def _upwards(self, change: Change) -> list[PointChange]:
@@ -125,23 +125,7 @@ class TapedHistory:
         try:
             return self.forward(change, 1.0)
         except InputError:
-            return self._along(change, self._nothing)
-
-    def at_start(self, change: Change, way: float) -> Array:
-        """(2, d - 1, n) What a change makes, to one side, of motions and friction where the history begins.
-
-        Beside what is remembered of it: on smooth cones alone; errors as of `forward`.
-        """
-        gap = GapRate.of(change)
-        if self.start.on_linear_path or not self.start.moved(gap).any():
-            return np.zeros((2, *self._nothing.shape))
-        one_way = gap.times(way)
-        return way * np.stack([self.start.memory(one_way), self.start.friction(one_way)])
-
-    def _remembered(self, change: Change, way: float) -> Array:
-        """(d - 1, n) What a change makes of tangential motions before the first point, to one side, length per unit."""
-        gap = GapRate.of(change)
-        return way * self.start.memory(gap.times(way)) if self.start.moved(gap).any() else self._nothing
+            return self._along(change, np.zeros((self.view.interface.directions - 1, len(self.view.interface))))
 
     def _along(self, change: Change, remembered: Array) -> list[PointChange]:
         """What a change makes of every point, which is ``remembered`` before them, (d - 1, n) length per unit."""
@@ -151,11 +135,6 @@ class TapedHistory:
         """What a change changes at once, with the shortenings at which bolts lock."""
         shortenings = {lock.name: shortening.along(change) for lock, shortening in self.locks()}
         return ChangeWithLocks(change=change, shortenings=shortenings) if shortenings else change
-
-    @property
-    def _nothing(self) -> Array:
-        """(d - 1, n) What nothing changes of tangential motions."""
-        return np.zeros((self.view.interface.directions - 1, len(self.view.interface)))
 
     def edges(self, change: Change) -> list[PathEdge]:
         """Where a change may have another derivative to each of its sides, kept."""
@@ -193,7 +172,7 @@ class TapedHistory:
         key = change, way, len(points)
         if key not in self._ordered:
             order = EventOrder(
-                walk=ForwardWalk(points, self._at_once(change), self._remembered(change, way)),
+                walk=ForwardWalk(points, self._at_once(change), self.start.changes(GapRate.of(change), way)[0]),
                 legs=self.legs,
                 way=way,
                 moves=max(abs(found.part) for found in self._upwards(change)),
@@ -337,22 +316,12 @@ class DirectionalDerivative:
         InputError
             Where that is not known.
         """
-        start, remembered = self._history.start, self._adjoint.remembered
         found = sum(share * shortening.through_start(gap, way) for share, shortening in self._locks)
-        if start.moved(gap).any() and (remembered.any() or self._work_at_start.any()):
-            memory = start.memory(gap.times(way))
-            found += way * float(np.vdot(remembered, memory))
-            found += way * float(np.vdot(self._work_at_start, [memory, start.friction(gap.times(way))]))
-        return found
-
-    @cached_property
-    def _work_at_start(self) -> Array:
-        """(2, d - 1, n) How the output changes with motions and friction where the history begins, but by memory."""
-        history = self._history
-        if history.start.on_linear_path:
-            return np.zeros((2, *self._adjoint.remembered.shape))
-        weights = weights_at_start(self.output, history.view, history.start.at_rest)
-        return np.stack([weights.h[1:], weights.r[1:]])
+        history, weights = self._history, np.zeros((2, *self._adjoint.remembered.shape))
+        if history.start.moved(gap).any():
+            weights = weights_at_start(self.output, history.view, history.start.ahead)
+            weights[0] += self._adjoint.remembered
+        return found + (float(np.vdot(weights, history.start.changes(gap, way))) if weights.any() else 0.0)
 
     def by_gaps(self) -> Array:
         """(n,) The derivative by the gap of every pair, per length.
@@ -386,12 +355,10 @@ class DirectionalDerivative:
         for _, shortening in self._locks:
             shortening.refuse_by_nodes(what)
         if why := self._shared.why_parted() or self._why_turned_apart():
-            words = f"{why}: derivatives node by node may have two sides there; profile_sides(contact, change) and"
-            raise InputError(f"{words} shape_sides(motion) know both of what is varied together", where=(what,))
+            raise has_sides_by_nodes(f"{why}: derivatives node by node may have two sides there", what)
         for tied, together in self._ties:
             if np.abs(together._by_gaps()).max() > _TWO_SIDES * np.abs(self._by_gaps()).max():
-                words = f"{tied.words}: derivatives node by node have two sides; profile_sides(contact, change) and"
-                raise InputError(f"{words} shape_sides(motion) know both of what is varied together", where=(what,))
+                raise has_sides_by_nodes(f"{tied.words}: derivatives node by node have two sides", what)
 
     def _why_turned_apart(self) -> str:
         """Which pairs turn alike that random gaps take apart, so that the output feels it; empty where none do."""

@@ -106,13 +106,12 @@ class TouchingStart:
     _known: dict[bytes, Array] = field(default_factory=dict, init=False)
 
     @property
-    def on_linear_path(self) -> bool:
-        """Whether the first piece is on a path that is linear from event to event."""
-        return self.points[0].on_linear_path
+    def ahead(self) -> TapePoint | None:
+        """Where the history begins and nothing moves or presses yet; None where that is one of its points."""
+        return None if self.points[0].on_linear_path else self._at_rest
 
     @property
-    def at_rest(self) -> TapePoint:
-        """Where the history begins: nothing moves or presses yet."""
+    def _at_rest(self) -> TapePoint:
         return self._on_first_piece(0.0, at_rest=True)
 
     @property
@@ -127,7 +126,7 @@ class TouchingStart:
         if not self.pairs.any() or leg.start is None or leg.segment is None or leg.start.r.any():
             return []
         if first.on_linear_path:
-            return [self.at_rest, first]
+            return [self._at_rest, first]
         # with other gaps the law does not hold all along one increment any more
         shortest = min(leg.segment.shortest, 1.0 / MORE_IN_SPACE)
         part = early(shortest, 0.0) / leg.segment.pieces[-1].factor
@@ -231,30 +230,30 @@ class TouchingStart:
     def _apart(self) -> Array:
         """(d - 1, n) What random changes of gaps, as long as 1, and their opposites leave of motions together."""
         gap = np.where(self.pairs, np.random.default_rng(0).uniform(-1.0, 1.0, len(self.pairs)), 0.0)
-        return self.memory(GapRate(gap=gap)) + self.memory(GapRate(gap=-gap))
+        return np.subtract(*(self.changes(GapRate(gap=gap), way)[0] for way in (1.0, -1.0)))
 
-    def memory(self, rate: GapRate) -> Array:
-        """(d - 1, n) How far tangential motions are other ones where pairs stick, length per unit of a change of gaps.
+    def changes(self, gap: GapRate, way: float) -> Array:
+        """(2, d - 1, n) What a change of gaps makes of motions and friction before the first point, to one side.
 
-        Raises
-        ------
-        InputError
-            Where the path with other gaps is not known.
-        """
-        return self._changes(rate)[0]
+        Of tangential motions where pairs stick, length per unit; on smooth cones of friction of pairs that press at
+        once, force per unit.
 
-    def friction(self, rate: GapRate) -> Array:
-        """(d - 1, n) Friction of pairs that press at once, on smooth cones, force per unit of a change of gaps.
+        Parameters
+        ----------
+        gap : the change
+        way : 1 upwards, -1 downwards
 
         Raises
         ------
         InputError
             Where the path with other gaps is not known.
         """
-        return self._changes(rate)[1]
+        if not self.moved(gap).any():
+            return np.zeros((2, self.points[0].system.directions - 1, len(self.pairs)))
+        return way * self._changes(gap.times(way))
 
     def _changes(self, rate: GapRate) -> Array:
-        """(2, d - 1, n) What changes of gaps make of tangential motions and forces before the first point, per unit."""
+        """See `changes`, upwards."""
         assert rate.gap is not None
         gap = np.where(self.moved(rate), rate.gap, 0.0)  # what pairs that are apart do has events of its own
         size = float(np.abs(gap).max())

@@ -66,18 +66,6 @@ def at_hand(mesh: Mesh, blocks: Sequence[Block] = ()) -> Iterator[None]:
             vars(block)["cells"] = cells
 
 
-def lend(mesh: Mesh) -> None:
-    """Let ranks have a mesh of which nobody but this run asks anything, once it was cut.
-
-    Parameters
-    ----------
-    mesh : of a deck that is run
-    """
-    team = several_ranks()
-    if team is not None:
-        team.lent.add(mesh)
-
-
 def let_go(space: Space) -> None:
     """Have the ranks keep the mesh of a space by rows, an even share each, if it was lent to them.
 

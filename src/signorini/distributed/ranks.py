@@ -247,6 +247,18 @@ def several_ranks() -> Team | None:
     return team if team is not None and team.together and team.size > 1 else None
 
 
+def lend(mesh: Any) -> None:
+    """Let ranks have a mesh of which nobody but this run asks anything, once it was cut.
+
+    Parameters
+    ----------
+    mesh : of a deck that is run
+    """
+    team = several_ranks()
+    if team is not None:
+        team.lent.add(mesh)
+
+
 def _is_array(value: Any) -> bool:
     """Whether something holds nothing of PETSc, on this rank and so on all."""
     import numpy as np

@@ -22,7 +22,7 @@ from signorini.friction.history.rates import NoRates, Rates
 from signorini.friction.history.segment import Breakpoint, Jump, Segment
 from signorini.friction.history.space.bearing import OVERLOADED, Bearing, sliding
 from signorini.friction.history.space.find_rates import acting_pairs, departures, find_rates
-from signorini.friction.history.space.lengths import PROBE, SHORT, early, pressed_for, shortened, turned_length
+from signorini.friction.history.space.lengths import PROBE, SHORT, aimed, early, pressed_for, shortened, turned_length
 from signorini.friction.history.space.missed_jumps import first_missed_jump
 from signorini.friction.history.space.standstill import standstill
 from signorini.friction.history.space.straight import (
@@ -60,7 +60,6 @@ _PATIENCE = 4  # tries
 _EVENT_TRIES = 12  # in which an event is met to rounding, if it can be
 _LOST = 1e-7  # part of the segment: where not even that has a solution nothing goes on gradually
 _EVENT_WIDTH = 1e-6  # of the data: width of zero at an event that smooth sections make uncertain
-_BENDS = 0.9  # by how much of its own length an increment moves where its event is expected, at most: no farther trust
 _QUICK_STEPS = 12  # of Newton's method, in an increment that may be shorter
 
 
@@ -227,15 +226,14 @@ class SpaceFollower(PathFollower):
     def _advance(self, *, patience: int) -> str:
         """One increment; why there is none, or nothing. Given up where so many were tried, and pairs act in all."""
         self.refused = None
-        shortest = self._shortest
-        left = self.reach - self.factor
+        shortest, left = self._shortest, self.reach - self.factor
         step = min(max(PROBE * self.last, _LEAST_PROBE, shortest), left)
-        tried = self.tried
         best: SolvedIncrement | None = None
         inner: SolvedIncrement | None = None
         beyond: SolvedIncrement | None = None
         search: tuple[SolvedIncrement, ...] = ()  # that told lengths one after the other, see `Breakpoint`
-        words, longest, barrier, self._barrier = "", left, self._barrier - self.factor, np.inf
+        tried, words, longest, barrier = self.tried, "", left, self._barrier - self.factor
+        self._barrier = np.inf
         if _LOST < barrier <= step:  # where the last one was refused is not tried again before it is near
             step, longest = 0.5 * barrier, barrier
         for number in range(TRIES):
@@ -298,27 +296,12 @@ class SpaceFollower(PathFollower):
         return self._counted(self.now.r) + step * self._rate if known and self._rate is not None else None
 
     def _aim(self, trial: SolvedIncrement, last: SolvedIncrement | None, state: IntArray) -> float:
-        """The length to try after one in which nothing has happened: up to the next event, and to the turn allowed.
+        """The length to try after an increment, and a last one, inside which pairs are in these states: `aimed`."""
 
-        Parameters
-        ----------
-        trial : the increment
-        last : the one before in which nothing has happened; None where there is none
-        state : (n,) inside it
-        """
-        event = self._event_ahead(trial, state)
-        if last is not None and last.step < trial.step < event < np.inf:
-            # friction that turns on other pairs bends the way there: where what is expected would be what it is
-            moves = (event - self._event_ahead(last, state)) / (trial.step - last.step)
-            event = trial.step + (event - trial.step) / (1.0 - min(max(moves, 0.0), _BENDS))
-        aim = max(trial.step, event)
-        if trial.turn > 0.0:
-            aim = min(aim, max(trial.step, turned_length(trial, self._turn)))
-        return max(aim, self._shortest)
+        def event(one: SolvedIncrement) -> float:
+            return one.step * extrapolated_length(self.problem, self.now, replace(one.after, state=state), self.width)
 
-    def _event_ahead(self, trial: SolvedIncrement, state: IntArray) -> float:
-        """The length at whose end an event is expected, from the way up to the end of a trial in some states."""
-        return trial.step * extrapolated_length(self.problem, self.now, replace(trial.after, state=state), self.width)
+        return aimed(trial, last, event, self._turn, self._shortest)
 
     @property
     def _turn(self) -> float:

@@ -8,6 +8,7 @@ trial tells that of the next one by how much friction turns in it, and derivativ
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -25,6 +26,7 @@ PROBE = 2.0**-4
 EARLY_GROWTH = 0.5
 """Of what is behind: what increments at the beginning need not undercut."""
 
+_MOST_MOVED = 0.9  # of what an increment grows by: how far it moves where an event is expected, that it is believed
 _EARLY_SHARE = 2.0**-4  # and of the shortest elsewhere
 
 
@@ -59,6 +61,47 @@ def turned_length(trial: SolvedIncrement, turn: float) -> float:
     0.9
     """
     return trial.step * (SHORT * turn / trial.turn) if trial.turn > 0.0 else math.inf
+
+
+def aimed(
+    trial: SolvedIncrement,
+    last: SolvedIncrement | None,
+    event: Callable[[SolvedIncrement], float],
+    turn: float,
+    least: float,
+) -> float:
+    """The length to try after one in which nothing has happened: up to the next event, and to the turn allowed.
+
+    Parameters
+    ----------
+    trial, last : the increment, and the one before in which nothing has happened; None where there is none
+    event : the length at whose end an increment expects the next event
+    turn : angle by which friction may turn
+    least : length that it need not undercut
+    """
+    aim = event(trial) if last is None else up_to_event(trial.step, event(trial), last.step, event(last))
+    if trial.turn > 0.0:
+        aim = min(aim, turned_length(trial, turn))
+    return max(aim, trial.step, least)
+
+
+def up_to_event(length: float, ahead: float, before: float, ahead_before: float) -> float:
+    """The length up to an event that two increments expect elsewhere, as friction turns on other pairs: by a secant.
+
+    Parameters
+    ----------
+    length, ahead : of an increment in which nothing has happened, and where it expects the event
+    before, ahead_before : of a shorter one
+
+    Examples
+    --------
+    >>> up_to_event(0.5, 0.75, 0.25, 0.625), up_to_event(0.5, 0.75, 0.25, 0.75)
+    (1.0, 0.75)
+    """
+    if not before < length < ahead < math.inf:
+        return ahead
+    moves = (ahead - ahead_before) / (length - before)
+    return length + (ahead - length) / (1.0 - min(max(moves, 0.0), _MOST_MOVED))
 
 
 def shortened(
