@@ -3,7 +3,8 @@
 
 A pair that stands on the edge of its event, or shares one with another, mostly does so whatever is varied: it retraces
 what it did before. Then nothing that any parameter changes of its condition is left but rounding, and no way forwards
-for each parameter has to say so. Of pairs that turn alike on smooth cones, and tell lengths, only that way tells it.
+for each parameter has to say so. Of pairs that turn alike on smooth cones and tell lengths, or stay at their limit,
+only that way tells it.
 """
 
 from __future__ import annotations
@@ -36,12 +37,12 @@ class EdgeProbe:
 
     def __bool__(self) -> bool:
         """Whether the history has any edge."""
-        return bool(self._on or self.tied)
+        return bool(self._on or self.unsure)
 
     @cached_property
-    def tied(self) -> list[int]:
-        """Numbers of the points whose places are told by pairs that turn alike."""
-        return [i for i, point in enumerate(self._points) if point.tied]
+    def unsure(self) -> list[int]:
+        """Numbers of the points up to which pairs turn alike, and tell where these are, or stay at their limit."""
+        return [i for i, point in enumerate(self._points) if point.tied or len(point.stays)]
 
     @property
     def points(self) -> list[int]:
@@ -58,7 +59,7 @@ class EdgeProbe:
 
     def takes_apart(self, change: Change) -> bool:
         """Whether a parameter may take any edge apart; where it does not, that is sure up to rounding."""
-        if self.tied:
+        if self.unsure:
             return True
         on_edges, of_all = (changed(self._every, adjoint, change) for adjoint in self._sums)
         return abs(on_edges) > _NOTHING_APART * abs(of_all)

@@ -58,8 +58,9 @@ def beside(
         raise InputError(words)
     at_end = [edge for edge in found if not _in_order(points[edge.point])]
     on_way = [edge for edge in found if edge not in at_end]
-    if len(at_end) > 1 or any(edge.point != last for edge in at_end):
-        raise InputError(words)
+    unknown = [edge for edge in at_end if edge.point != last or len(at_end) > 1]
+    if unknown:
+        raise InputError(f"{unknown[0].words}: what {what} does on the other side is not known")
     sides = [points, points]
     if on_way:
         try:
@@ -78,7 +79,7 @@ def beside(
 
 def _in_order(point: TapePoint) -> bool:
     """Whether what comes to its edge at a point does so one after the other, see `event_order`."""
-    return point.ends_at_events or point.tied or point.at_event
+    return not len(point.stays) and (point.ends_at_events or point.tied or point.at_event)
 
 
 def _beyond(view: HistoryView, condition: int, legs: Sequence[Leg]) -> list[TapePoint] | None:

@@ -96,6 +96,15 @@ class TapePoint:
         """Whether the load here is that up to which several pairs turn alike, and farthest."""
         return self.quiet is not None and self.quiet.tied
 
+    @cached_property
+    def stays(self) -> IntArray:
+        """Numbers of the conditions of pairs that stick at their limit in an increment, which rounding tells apart."""
+        if self.quiet is None:
+            return np.zeros(0, dtype=np.int64)
+        known, sticks = self.conditions, self.states.held.all(axis=0)
+        none = np.abs(known.value) <= ZERO * (self.system.law.scale or 1.0)
+        return np.flatnonzero(none & sticks[known.pair] & known.friction.any(axis=0))
+
     @property
     def ends_at_events(self) -> bool:
         """Whether any event in the piece would end it."""

@@ -362,11 +362,11 @@ class DirectionalDerivative:
 
     def _why_turned_apart(self) -> str:
         """Which pairs turn alike that random gaps take apart, so that the output feels it; empty where none do."""
-        history, points = self._history, self._history.view.points
-        if not any(i <= self._shared.last for i in history.probe.tied):
+        unsure, points = self._history.probe.unsure, self._history.view.points
+        if not any(i <= self._shared.last for i in unsure):
             return ""
         change = GapChange(gap=np.random.default_rng(0).uniform(-1.0, 1.0, len(points[-1].system.condensed.active)))
-        found = [edge for edge in self.felt(change) if points[edge.point].tied]
+        found = [edge for edge in self.felt(change) if edge.point in unsure]
         if not found:
             return ""
         low, high = self.beside(change, "the gap of single nodes")

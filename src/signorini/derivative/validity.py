@@ -83,6 +83,7 @@ def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0
     found = list[PathEdge]()
     for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
         found += _turning_alike(view, i, change, ZERO * moves)
+        found += _staying(view, i)
         on = on_edge(point)
         grown = change_of_conditions(point, change) if on else np.zeros(0)
         for k in on:
@@ -114,6 +115,19 @@ def _turning_alike(view: HistoryView, i: int, change: PointChange, least: float)
         for pair in alike[apart].tolist():
             words = _words(view, point, np.array([pair]), ["turns as far as another"])(0)
             yield PathEdge(point=i, condition=pair, change=float(spare[pair]), words=words)
+
+
+def _staying(view: HistoryView, i: int) -> Iterator[PathEdge]:
+    """The pairs that stick at their limit in the increment up to a point: rounding tells what they count."""
+    point = view.points[i]
+    for k in point.stays.tolist():
+        pair = point.conditions.pair[[k]]
+        yield PathEdge(
+            point=i,
+            condition=k,
+            change=1.0,
+            words=_words(view, point, pair, ["stays at its limit without slipping"])(0),
+        )
 
 
 def _turns(point: TapePoint, change: PointChange) -> Iterator[tuple[TriedLength, Array]]:
