@@ -37,7 +37,8 @@ class Job(NamedTuple):
 class Crew:
     """A number of threads, whoever calls among them; with one, nobody else works.
 
-    What jobs share in turn goes to the same threads, so that there are never more of them, and BLAS has one meanwhile.
+    What is shared inside, by jobs in turn and by whoever calls, goes to the same threads, so that there are never more
+    and none is begun anew, and BLAS has one meanwhile.
 
     >>> said = []
     >>> with Crew(2) as crew:
@@ -58,6 +59,7 @@ class Crew:
     def __enter__(self) -> Self:
         if self.threads > 1:
             self._pool = _around.get() or self._hired()
+            self._open.callback(_around.reset, _around.set(self._pool))
         return self
 
     def _hired(self) -> ThreadPoolExecutor:
@@ -82,13 +84,11 @@ class Crew:
                 job.call()
             return
         jobs_left = _Jobs(jobs)
-        token = _around.set(self._pool)
         try:
             for _ in range(min(self.threads, len(jobs)) - 1):
                 self._pool.submit(copy_context().run, jobs_left.work)
             jobs_left.work()
         finally:
-            _around.reset(token)
             jobs_left.stop()
         if jobs_left.error is not None:
             raise jobs_left.error

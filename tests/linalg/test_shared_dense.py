@@ -9,10 +9,12 @@ from signorini.blas_threads import one_thread
 from signorini.cores import threads
 from signorini.linalg.shared_dense import (
     SHARED,
+    add_product,
     cholesky,
     factorise_with_pivots,
     inverse_of_cholesky,
     inverse_of_factors,
+    product,
 )
 
 SIZE = SHARED + 77  # tiles of which the last ones are narrow
@@ -80,6 +82,24 @@ def test_the_first_pivot_that_is_zero_is_named(general):
     assert factorise_with_pivots(singular)[1] == 301
 
 
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_products_are_those_of_blas(general, order):
+    """Of views into larger memory too, by rows or by columns."""
+    larger = np.full((SIZE + 5, SIZE + 9), np.nan, order=order)
+    view, x = larger[:SIZE, :SIZE], general[0]
+    view[:] = general
+    np.testing.assert_allclose(product(view, x), general @ x, atol=1e-11)
+
+
+@pytest.mark.parametrize("columns", [1, 4])
+def test_products_are_added_in_place(general, columns):
+    u, v = np.asfortranarray(general[:, :columns]), general[-columns:]
+    own = general.copy(order="F")
+    add_product(own[:, : SIZE - 11], u, v[:, : SIZE - 11])
+    np.testing.assert_allclose(own[:, : SIZE - 11], (general + u @ v)[:, : SIZE - 11], atol=1e-13)
+    np.testing.assert_array_equal(own[:, SIZE - 11 :], general[:, SIZE - 11 :])
+
+
 def test_bits_do_not_depend_on_the_number_of_threads(symmetric, general):
     def made(number):
         with one_thread(), threads(number):
@@ -87,7 +107,10 @@ def test_bits_do_not_depend_on_the_number_of_threads(symmetric, general):
             own, found = general.copy(order="F"), np.zeros((SIZE, SIZE), order="F")
             swapped, _ = factorise_with_pivots(own)
             inverse_of_factors(own, swapped, found)
-            return np.tril(factor), inverse_of_cholesky(factor, overwrite=True), own, swapped, found
+            products = product(general, general[0]), product(general.T, general[0]), general.copy(order="F")
+            for columns in (1, 4):
+                add_product(products[-1], np.asfortranarray(general[:, :columns]), general[:columns])
+            return np.tril(factor), inverse_of_cholesky(factor, overwrite=True), own, swapped, found, *products
 
     first = made(1)
     for number in (2, 3):

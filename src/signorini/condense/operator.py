@@ -22,7 +22,7 @@ from scipy.linalg import blas
 from signorini.arrays import Array, BoolArray, SingleArray, frozen, read_only
 from signorini.condense.basis import make_basis
 from signorini.errors import InputError
-from signorini.linalg.shared_dense import cholesky, inverse_of_cholesky
+from signorini.linalg.shared_dense import cholesky, inverse_of_cholesky, product
 
 UNRESISTED = 1e-14
 """Stiffness, relative to the interface stiffness D, below which a motion counts as rigid."""
@@ -166,7 +166,7 @@ class InterfaceOperator:
 
     def free_motion(self, b: Array) -> Array:
         """(m,) Motion c of the pairs under the load alone, without its rigid part."""
-        return b + self.A @ b - self.R @ (self.R.T @ b)
+        return b + product(self.A, b) - self.R @ (self.R.T @ b)
 
     def load(self, free: Array, resultant: Array) -> Array:
         """b, (m,), of a free motion, (m,), whose rigid part does not count, and resultants ``R' b``, (k,).

@@ -41,6 +41,7 @@ _dpotrf = _Routine("cython_lapack", "dpotrf", 5)
 _dtrsm = _Routine("cython_blas", "dtrsm", 11)
 _dsyrk = _Routine("cython_blas", "dsyrk", 10)
 _dgemm = _Routine("cython_blas", "dgemm", 13)
+_dger = _Routine("cython_blas", "dger", 9)
 _dpotri = _Routine("cython_lapack", "dpotri", 5)
 _dgetrf = _Routine("cython_lapack", "dgetrf", 6)
 _dlaswp = _Routine("cython_lapack", "dlaswp", 7)
@@ -243,3 +244,18 @@ def gemm(
     second = s.transposed if form == SECOND_TRANSPOSED else s.plain
     z = s.sizes
     _dgemm(first, second, z, z + 4, z + 8, s.minus_one, A.begin, z + 12, B.begin, z + 16, share, C.begin, z + 20)
+
+
+@part()
+def ger(m: int, n: int, x: int, y: int, A: StoredMatrix, s: Scratch) -> None:
+    """Overwrite A, (m, n), by ``A - x y^T``: half the time of a product of matrices.
+
+    Parameters
+    ----------
+    m, n, A : sizes and the matrix
+    x, y : addresses of (m,) and (n,) numbers
+    s : of the caller
+    """
+    s.size[0], s.size[1], s.size[2], s.size[3] = m, n, 1, A.stride
+    z = s.sizes
+    _dger(z, z + 4, s.minus_one, x, z + 8, y, z + 8, A.begin, z + 12)

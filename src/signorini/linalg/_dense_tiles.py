@@ -12,6 +12,7 @@ from signorini.linalg._blas import (
     StoredMatrix,
     block_at,
     gemm,
+    ger,
     getrf,
     laswp,
     potri,
@@ -142,3 +143,24 @@ def invert_factored_columns(first: int, width: int, n: int, lu: StoredMatrix, x:
     """
     solve_unit_lower(n - first, width, block_at(lu, first, first), block_at(x, first, 0), s)
     solve_upper(n, width, lu, x, s)
+
+
+@kernel(nogil=True)
+def take_product(
+    n: int, k: int, columns: tuple[int, int], left: StoredMatrix, right: StoredMatrix, matrix: StoredMatrix, s: Scratch
+) -> None:
+    """Overwrite columns of a matrix by themselves minus those of a product.
+
+    Parameters
+    ----------
+    n, k : rows, and how many columns the left factor has
+    columns : the first, and how many
+    left, right : (n, k) and (k, ...)
+    matrix : (n, ...)
+    s : of the thread
+    """
+    some, own = block_at(right, 0, columns[0]), block_at(matrix, 0, columns[0])
+    if k == 1:
+        ger(n, columns[1], left.begin, some.begin, own, s)
+    else:
+        gemm(AS_STORED, n, columns[1], k, left, some, s.one, own, s)

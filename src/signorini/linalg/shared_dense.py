@@ -15,7 +15,7 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
-from scipy.linalg import lapack
+from scipy.linalg import blas, lapack
 
 from signorini.arrays import Array, Int32Array, IntArray, SingleArray
 from signorini.cores import number_of_threads
@@ -27,7 +27,7 @@ from signorini.linalg.schedule import TILE, Tile, tiles
 from signorini.linalg.shared_fronts import NoPivot
 
 SHARED = 1536
-"""Rows from which threads share a factorisation or an inverse: three tiles, tens of milliseconds."""
+"""Rows from which threads share a factorisation or an inverse, three tiles, tens of milliseconds; or a product, one."""
 
 _PANEL = 256  # columns of a matrix with pivots that one thread factorises, while the others wait for the first of them
 
@@ -217,6 +217,66 @@ def inverse_of_factors(lu: Array, swapped: IntArray, into: Array) -> None:
         into[:, row[block[0] : sum(block)]] = x
 
     _finish([Job(partial(compute, block)) for block in tiles(0, n)])
+
+
+def product(matrix: Array, x: Array) -> Array:
+    """``A x``, (n,).
+
+    Parameters
+    ----------
+    matrix, x : (n, m) A, by rows or columns, and (m,)
+
+    Examples
+    --------
+    >>> product(np.array([[0.0, 2.0], [4.0, 1.0]]), np.array([1.0, 2.0])).tolist()
+    [4.0, 6.0]
+    """
+    if min(matrix.shape) < SHARED:
+        return np.asarray(matrix @ x)
+    found = np.empty(len(matrix))
+
+    def multiply(rows: Tile) -> None:
+        some = slice(rows[0], sum(rows))
+        np.matmul(matrix[some], x, out=found[some])
+
+    _finish([Job(partial(multiply, rows)) for rows in _shares(len(matrix))])
+    return found
+
+
+def add_product(matrix: Array, u: Array, v: Array) -> None:
+    """Overwrite A by ``A + u v``.
+
+    Parameters
+    ----------
+    matrix : (n, m) A, by columns
+    u, v : (n, k), by columns, and (k, m)
+
+    Examples
+    --------
+    >>> A = np.asfortranarray([[0.0, 2.0], [4.0, 1.0]])
+    >>> add_product(A, np.array([[1.0], [0.0]]), np.array([[3.0, 5.0]]))
+    >>> A.tolist()
+    [[3.0, 7.0], [4.0, 1.0]]
+    """
+    n, k = u.shape
+    assert matrix.flags.f_contiguous
+    if min(matrix.shape) >= SHARED:
+        left, right = np.asfortranarray(-u), np.asfortranarray(v)
+        factors = StoredMatrix(left.ctypes.data, n), StoredMatrix(right.ctypes.data, k), _stored(matrix)
+
+        def take(columns: Tile) -> None:
+            _dense_tiles.take_product(n, k, columns, *factors, scratch())
+
+        _finish([Job(partial(take, columns)) for columns in _shares(matrix.shape[1])])
+    elif k == 1:  # half the time of a product of matrices
+        blas.dger(1.0, u[:, 0], v[0], a=matrix, overwrite_x=0, overwrite_y=0, overwrite_a=1)
+    else:
+        blas.dgemm(1.0, u, v, beta=1.0, c=matrix, overwrite_c=1)
+
+
+def _shares(n: int) -> list[Tile]:
+    """Rows of a product that one thread takes at a time: even shares of about half of what is shared at all."""
+    return tiles(0, n, -(-n // (2 * n // SHARED)))
 
 
 def _stored(matrix: Array | SingleArray) -> StoredMatrix:

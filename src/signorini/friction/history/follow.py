@@ -6,12 +6,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from signorini.arrays import Array
+from signorini.cores import number_of_threads
+from signorini.crew import Crew
 from signorini.friction.history.follower import PathFollower, PathSettings
 from signorini.friction.history.plane.follower import PlaneFollower
 from signorini.friction.history.segment import Breakpoint, Segment
 from signorini.friction.history.space.follower import SpaceFollower
 from signorini.friction.history.state import PathState
 from signorini.friction.problem import ContactProblem
+from signorini.linalg.shared_dense import SHARED
 from signorini.outcome import Outcome
 
 
@@ -77,16 +80,17 @@ def follow(
     >>> [(round(event.factor, 12), event.what) for event in pulled.events], (pulled.end.h.round(12) + 0.0).tolist()
     ([(0.5, 'slips')], [[0.0], [0.5], [0.0]])
     """
-    walk = follower(problem, start, b_end, settings or PathSettings())
-    while True:
-        lost, left = None, False
-        while walk.factor < 1.0 and lost is None and not left:
-            lost = walk.go_on()
-            left = leaves is not None and leaves(walk.pieces[-1])
-            if tell is not None:
-                tell(walk.factor)
-        if not walk.goes_back():
-            break
+    with Crew(number_of_threads() if len(problem.b) >= SHARED else 1):  # products of every event go to the same threads
+        walk = follower(problem, start, b_end, settings or PathSettings())
+        while True:
+            lost, left = None, False
+            while walk.factor < 1.0 and lost is None and not left:
+                lost = walk.go_on()
+                left = leaves is not None and leaves(walk.pieces[-1])
+                if tell is not None:
+                    tell(walk.factor)
+            if not walk.goes_back():
+                break
     if left:
         return walk.segment(Outcome.DISTURBED, None, f"left at factor {walk.factor:.12g}")
     if lost is not None:

@@ -8,13 +8,20 @@ those alone that a state leaves unknown, in any order, equations in the order of
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import blas, lapack
+from scipy.linalg import lapack
 
 from signorini.arrays import Array, IntArray
 from signorini.friction.linear import SINGULAR
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, STICK
-from signorini.linalg.shared_dense import cholesky, factorise_with_pivots, inverse_of_cholesky, inverse_of_factors
+from signorini.linalg.shared_dense import (
+    add_product,
+    cholesky,
+    factorise_with_pivots,
+    inverse_of_cholesky,
+    inverse_of_factors,
+    product,
+)
 
 PIVOT_TOL = 1e-9
 """Pivot, relative to what cancels in it, below which the system is inverted afresh."""
@@ -90,7 +97,7 @@ class StateInverse:
 
     def seen(self, x: Array) -> Array:
         """(2n + k,) What all equations see of unknowns, (m,)."""
-        return np.asarray(self._columns[:, : self._count] @ x)
+        return product(self._columns[:, : self._count], x)
 
     def move_to(self, state: IntArray) -> None:
         """Make it the inverse of another state.
@@ -115,7 +122,7 @@ class StateInverse:
         ----------
         free : (2n + k,) what the equations see of a load alone
         """
-        x = -(self.matrix @ free[self.unknowns])
+        x = -product(self.matrix, free[self.unknowns])
         return x, free + self.seen(x)
 
     def _invert(self, state: IntArray) -> None:
@@ -243,10 +250,7 @@ class StateInverse:
         if m:
             padded = np.zeros((len(self._inverse), k), order="F")
             padded[:m] = u
-            if k == 1:  # half the time of a product of matrices
-                blas.dger(1.0, padded[:, 0], v[0], a=self._inverse[:, :m], overwrite_x=0, overwrite_y=0, overwrite_a=1)
-            else:
-                blas.dgemm(1.0, padded, v, beta=1.0, c=self._inverse[:, :m], overwrite_c=1)
+            add_product(self._inverse[:, :m], padded, v)
 
     def _grow(self, size: int) -> None:
         """Room for so many unknowns."""
