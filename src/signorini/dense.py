@@ -12,7 +12,9 @@ from scipy.linalg import lapack
 from signorini.arrays import Array
 
 
-def solve_triangular(triangle: Array, load: Array, *, lower: bool = False, transposed: bool = False) -> Array:
+def solve_triangular(
+    triangle: Array, load: Array, *, lower: bool = False, transposed: bool = False, unit: bool = False
+) -> Array:
     """``T^-1 b``, or ``T^-T b``, (n, ...).
 
     Parameters
@@ -21,6 +23,7 @@ def solve_triangular(triangle: Array, load: Array, *, lower: bool = False, trans
     load : (n,) or (n, k) b
     lower : whether T is below the diagonal
     transposed : whether its transpose is asked
+    unit : whether T has ones on its diagonal, which are not looked at either
 
     Raises
     ------
@@ -35,9 +38,9 @@ def solve_triangular(triangle: Array, load: Array, *, lower: bool = False, trans
     if not load.size:
         return np.zeros(load.shape)
     if triangle.flags.f_contiguous:
-        x, failed = lapack.dtrtrs(triangle, load, lower=lower, trans=transposed)
+        x, failed = lapack.dtrtrs(triangle, load, lower=lower, trans=transposed, unitdiag=unit)
     else:  # LAPACK reads columns
-        x, failed = lapack.dtrtrs(triangle.T, load, lower=not lower, trans=not transposed)
+        x, failed = lapack.dtrtrs(triangle.T, load, lower=not lower, trans=not transposed, unitdiag=unit)
     if failed:
         raise np.linalg.LinAlgError(f"singular matrix: resolution failed at diagonal {failed - 1}")
     return np.asarray(x, dtype=np.float64)

@@ -50,6 +50,13 @@ def test_the_image_form_is_equilibrium(make, compliance):
     np.testing.assert_allclose(found, u, rtol=0, atol=1e-8 * np.abs(u).max())
 
 
+def test_the_interface_has_its_factor_in_the_memory_of_a_body():
+    """As equilibrium, above, says, neither harms the other."""
+    condensed = prepare(dragged_block()).paths.condensed
+    (block,) = condensed.response.parts.blocks
+    assert np.shares_memory(condensed.image.factor, block.upper)
+
+
 @pytest.mark.parametrize(("make", "compliance"), EXACT_TO_SOFT + SOFTER_AND_HELD)
 def test_the_spectrum_lies_between_0_and_1(make, compliance):
     """1 belongs to rigid motions alone, whatever the compliance: nothing becomes ill-conditioned."""

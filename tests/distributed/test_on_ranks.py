@@ -162,6 +162,57 @@ def test_a_rank_that_fails_ends_all_and_leaves_finished_steps(tmp_path):
     assert history.steps[0].certificate.passed
 
 
+ASKING = """
+import signorini as sg
+from signorini.distributed.ranks import the_team
+
+def nothing(team, *piece):
+    pass
+
+def asked():
+    team = the_team()
+    for rank in range(team.size):
+        team.everywhere(nothing)
+        yield rank
+
+with sg.ranks() as first:
+    if first:
+        the_team().everywhere(nothing, pieces=asked())
+"""
+
+
+@with_ranks
+@pytest.mark.slow
+def test_pieces_that_ask_ranks_end_all(tmp_path):
+    """Others wait for their piece: they neither take the question for it nor wait for ever."""
+    script = tmp_path / "script.py"
+    script.write_text(ASKING)
+    done = on_ranks(2, str(script))
+    assert done.returncode != 0
+    said = "RuntimeError: internal error: ranks are asked for 'nothing' while they are asked something else; expected "
+    assert f"signorini: rank 0 failed: {said}" in done.stderr
+
+
+def _nothing(team, *given):
+    del team, given
+
+
+def _asking(team):
+    team.everywhere(_nothing)
+
+
+@with_petsc
+def test_ranks_that_are_asked_something_are_asked_nothing_else():
+    """By pieces and by what they do, on one rank too; and they may be asked again afterwards."""
+    team = ranks.Team(ranks.the_team().comm)
+    words = r"^internal error: ranks are asked for '_nothing' while they are asked something else; expected pieces that"
+    with pytest.raises(RuntimeError, match=words):
+        team.everywhere(_nothing, pieces=(team.everywhere(_nothing) for _ in range(1)))
+    with pytest.raises(RuntimeError, match=words):
+        team.everywhere(_asking)
+    assert team.everywhere(_nothing, pieces=[3]) == [None]
+
+
 def yielding():
     model = cubes(2)
     soft = [replace(body, material=replace(body.material, plastic=sg.Plastic(1.0))) for body in model.bodies]

@@ -46,6 +46,14 @@ def test_cholesky_is_that_of_lapack(symmetric):
     np.testing.assert_allclose(np.tril(own), np.linalg.cholesky(whole), atol=1e-12 * np.sqrt(whole.max()))
 
 
+@pytest.mark.parametrize("number", [1, 2])
+def test_cholesky_leaves_what_is_above_the_diagonal(symmetric, general, number):
+    own = np.asfortranarray(np.tril(symmetric[0]) + np.triu(general, 1))
+    with threads(number):
+        assert cholesky(own) == 0
+    np.testing.assert_array_equal(np.triu(own, 1), np.triu(general, 1))
+
+
 @pytest.mark.parametrize("column", [3, 700, SIZE - 1])
 @pytest.mark.parametrize("number", [1, 2])
 def test_the_first_pivot_that_is_not_positive_is_named(symmetric, column, number):

@@ -31,17 +31,31 @@ class BodyBlock:
     Attributes
     ----------
     dofs : (p,) its contact dofs, ascending
-    cholesky : (p, p) of its stiffness with the springs, lower; above the diagonal anything
-    inverse : (p, p) of that stiffness, where it is wanted again and again; None: made when it is
+    upper : (p, p) U of ``U^T D U``, its stiffness with the springs, by columns: ones on the diagonal are not there, so
+        that on it and below there is room for something else
+    pivots : (p,) D
+    known : (p, p) the inverse of that stiffness, where it is wanted again and again; None: made when it is
     """
 
     dofs: IntArray
-    cholesky: Array
-    inverse: Array | None = None
+    upper: Array
+    pivots: Array
+    known: Array | None = None
 
     def solve(self, load: Array) -> Array:
         """Displacements (p, ...) under a load (p, ...)."""
-        return solve_cholesky(self.cholesky, load)
+        half = solve_triangular(self.upper, load, transposed=True, unit=True)
+        return solve_triangular(self.upper, (half.T / self.pivots).T, unit=True)
+
+    @property
+    def inverse(self) -> Array:
+        """(p, p) Of its stiffness with the springs."""
+        if self.known is not None:
+            return self.known
+        lower, root = np.array(self.upper.T, order="F"), np.sqrt(self.pivots)
+        lower *= root
+        lower[np.diag_indices_from(lower)] = root
+        return inverse_of_cholesky(lower, overwrite=True)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -70,9 +84,7 @@ class BodyBlocks:
 
     def inverted(self) -> BodyBlocks:
         """Blocks with their inverses, for pairs that change."""
-        return replace(
-            self, blocks=tuple(replace(own, inverse=inverse_of_cholesky(own.cholesky)) for own in self.blocks)
-        )
+        return replace(self, blocks=tuple(replace(own, known=own.inverse) for own in self.blocks))
 
     def compliance(self, B: sp.csr_array) -> Array:
         """``B M^-1 B^T`` of the stiffness M with its ties, (k, k), symmetric to the last digit; B (k, m)."""
@@ -81,9 +93,7 @@ class BodyBlocks:
             own = B if len(part.dofs) == B.shape[1] else chosen_columns(B, part.dofs)
             seen = np.flatnonzero(np.diff(own.indptr))
             own = own if len(seen) == len(result) else chosen_rows(own, seen)
-            inverse = inverse_of_cholesky(part.cholesky) if part.inverse is None else part.inverse
-            half = own @ inverse.T
-            del inverse  # as large as what is made of it, like all below
+            half = own @ part.inverse.T  # the inverse is as large as what is made of it, like all below
             half = np.ascontiguousarray(half.T)
             moved = own @ half
             del half
@@ -165,4 +175,7 @@ def _block(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> BodyB
     failed = cholesky(matrix)
     if failed:
         raise np.linalg.LinAlgError(f"{failed}-th leading minor of the array is not positive definite")
-    return BodyBlock(dofs=dofs, cholesky=matrix)
+    root = matrix.diagonal().copy()
+    matrix /= root
+    mirror(matrix, 0, len(matrix))
+    return BodyBlock(dofs=dofs, upper=matrix, pivots=root**2)

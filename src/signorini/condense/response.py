@@ -109,6 +109,12 @@ class ByNodes(Response):
 
     parts: BodyBlocks
 
+    @property
+    def room(self) -> Array | None:
+        """What a body with as many dofs as the pairs have leaves of its factor."""
+        rows = self.B.shape[0]
+        return next((own.upper.T for own in self.parts.blocks if len(own.dofs) == rows), None)
+
     def reduce(self, f: Array) -> Reduced:
         """Condense loads (z,) onto the contact dofs."""
         return self.factorisation.reduce(f)

@@ -53,6 +53,7 @@ class Team:
         self.away: weakref.WeakSet[Any] = weakref.WeakSet()
         self.lent: weakref.WeakSet[Any] = weakref.WeakSet()
         self.together = self.size == 1
+        self._asking = False
         self._numbers = itertools.count()
         self._dropped: list[int] = []
         self._soon: list[tuple[Callable[..., Any], tuple[Any, ...]]] = []
@@ -109,12 +110,23 @@ class Team:
         ----------
         work : a function of a module
         given : what all of them are given
-        pieces : one for each rank, made one after the other
+        pieces : one for each rank, made one after the other; what makes them asks the ranks nothing
 
         Returns
         -------
         What the function returns, by rank.
+
+        Raises
+        ------
+        RuntimeError
+            If pieces or the function ask the ranks something: they wait for what they are asked already. Of several
+            ranks all end then.
         """
+        if self._asking:
+            raise RuntimeError(
+                f"internal error: ranks are asked for '{work.__name__}' while they are asked something else; expected "
+                "pieces that are made without them"
+            )
         if not self.together:
             raise InputError(
                 f"{self.size} processes run at once; expected the command line, or in Python what is asked of back end "
@@ -122,15 +134,25 @@ class Team:
             )
         dropped, self._dropped[:] = tuple(self._dropped), []
         before, self._soon[:] = tuple(self._soon), []
-        with _signals_held_back():
+        with _signals_held_back(), self._asked():
             self.comm.bcast((before, work, given, pieces is not None, dropped))
             own: tuple[Any, ...] = ()
-            for rank, piece in enumerate(pieces or ()):
-                if rank:
-                    self.comm.send(piece, dest=rank)
-                else:
-                    own = (piece,)
+            with self._ending_all():
+                for rank, piece in enumerate(pieces or ()):
+                    if rank:
+                        self.comm.send(piece, dest=rank)
+                    else:
+                        own = (piece,)
             return list(self._done(before, work, own, given, dropped) or ())
+
+    @contextmanager
+    def _asked(self) -> Iterator[None]:
+        """Ranks are asked something in the block."""
+        self._asking = True
+        try:
+            yield
+        finally:
+            self._asking = False
 
     def serve(self) -> None:
         """Do what the first rank asks for, until it says that it has ended."""
@@ -153,13 +175,13 @@ class Team:
         self.comm.bcast(((), None, (self.code,), False, ()))
 
     def _done(self, before: Any, work: Callable[..., Any], own: Any, given: tuple[Any, ...], dropped: Any) -> Any:
-        """What all ranks return, on the first one; where one fails all end, because the others would wait for ever.
+        """What all ranks return, on the first one.
 
         What was dropped may be asked for by what is done before.
 
         What the first one returns may be as large as its interface, and is not sent: MPI would copy it.
         """
-        try:
+        with self._ending_all():
             for sooner, its in before:
                 sooner(self, *its)
             let_go = [self.held.pop(number, None) for number in dropped]
@@ -169,6 +191,12 @@ class Team:
             result = work(self, *own, *given)
             found = self.comm.gather(None if self.first else result)
             return found and [result, *found[1:]]
+
+    @contextmanager
+    def _ending_all(self) -> Iterator[None]:
+        """Where the block fails on one of several ranks all end, because the others would wait for ever."""
+        try:
+            yield
         except Exception as error:
             if self.size == 1:
                 raise

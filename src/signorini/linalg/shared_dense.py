@@ -64,10 +64,21 @@ def cholesky(matrix: Array | SingleArray) -> int:
         if column:
             raise NoPivot(columns[0] + column - 1)
 
+    def eliminate_square(block: Tile) -> None:
+        """Products take whole tiles, so that what is above the diagonal is put back."""
+        own = slice(block[0], sum(block))
+        square = matrix[own, own]
+        above = np.triu(square, 1)
+        try:
+            eliminate(block, block)
+        finally:
+            square[:] = np.tril(square) + above
+
     for i, block in enumerate(blocks):
         for rows in blocks[i:]:
             needs = {done[tile] for tile in (block, rows) if tile in done}
-            jobs.append(Job(partial(eliminate, block, rows), tuple(sorted(needs))))
+            work = partial(eliminate_square, block) if rows == block else partial(eliminate, block, rows)
+            jobs.append(Job(work, tuple(sorted(needs))))
             done[rows] = len(jobs) - 1
     try:
         _finish(jobs)
