@@ -101,7 +101,7 @@ class TapePoint:
         """Numbers of the conditions of pairs that stick at their limit in an increment, which rounding tells apart."""
         if self.quiet is None:
             return np.zeros(0, dtype=np.int64)
-        known, sticks = self.conditions, self.states.held.all(axis=0)
+        known, sticks = self.conditions, np.asarray(self.states.held.all(axis=0))
         none = np.abs(known.value) <= ZERO * (self.system.law.scale or 1.0)
         return np.flatnonzero(none & sticks[known.pair] & known.friction.any(axis=0))
 

@@ -131,7 +131,8 @@ class HistoryTangent:
         view = self._history.view
         pairs = [(weight, self._changes[i]) for i, weight in weights(output, view).items()]
         terms = [np.vdot(weight.h, change.h) + np.vdot(weight.r, change.r) for weight, change in pairs]
-        terms.append(np.vdot(weights_at_start(output, view, self._history.start.ahead), self._at_start))
+        if self._at_start.any():
+            terms.append(np.vdot(weights_at_start(output, view, self._history.start.ahead), self._at_start))
         return np.array(terms)
 
     def _of_peak(self, nodes: Sequence[AtNode]) -> float:

@@ -147,7 +147,7 @@ class TouchingStart:
         """
         first, leg = self.points[0], self.legs[0]
         assert leg.start is not None
-        share = part / first.part
+        share = part / first.part if part else 0.0
         point = replace(
             first,
             load=first.system.posed(leg.before.point.towards(leg.end, part) if part else leg.before.point),
