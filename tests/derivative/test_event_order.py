@@ -196,6 +196,40 @@ def test_what_tilts_a_side_that_touches_all_along_on_smooth_cones():
         assert abs(low - high) > 1e-4 * abs(low)
 
 
+@pytest.mark.parametrize("friction", [0.3, 0.0])
+def test_pairs_that_touch_together_at_the_end_of_an_increment(friction):
+    """Of two that a change presses, or one of them, each is where the other one lets it be."""
+
+    def pressed(down):
+        model = turning_alike()
+        contacts, step = [replace(model.contacts[0], friction=friction)], sg.Step(scale={"down": down}, increments=1)
+        return replace(model, loads=[], contacts=contacts, steps=[step])
+
+    def apart(down):
+        point = sg.solve(pressed(down), tape=True)._taped.view.points[-1]
+        return (point.h[0] - point.r[0]).max()  # that of two corners
+
+    low, high = 0.3, 0.31
+    before, here = apart(low), apart(high)
+    for _ in range(8):
+        low, high, before = high, high - here * (high - low) / (here - before), here
+        here = apart(high)
+        if abs(here) < 1e-15:
+            break
+    model, solution = pressed(high), sg.solve(pressed(high), tape=True)
+    x, y, z = model.mesh.points.T
+    motion = np.column_stack([0.0 * x, 0.0 * x, (0.7 - z) * (0.01 * x + 0.003 * y)])
+
+    def tilted(part):
+        return replace(model, mesh=replace(model.mesh, points=model.mesh.points + part * motion))
+
+    outputs = (sg.force("joint", along=(0, 1, 0)), sg.force("joint", along=(0, 0, 1)), sg.moment("joint", about=(0, 0, 0), axis=1))
+    wanted = limits(outputs, tilted, 1e-5, here=0.0)
+    for output, sides in zip(outputs, wanted, strict=True):
+        assert solution.derivative(output).shape_sides(motion) == pytest.approx(sides, rel=1e-6, abs=1e-6)
+    assert np.abs(wanted[:, 0] - wanted[:, 1]).max() > 1e-3
+
+
 @pytest.fixture(scope="module")
 def slipping():
     """Part of the second step of `squeezed` at which the first two pairs slip."""

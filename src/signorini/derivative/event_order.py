@@ -10,6 +10,7 @@ that of any other.
 
 On smooth cones the first of these events ends an increment, and the next one goes over the others, where it is as
 short as increments may be that do. Where pairs turn alike that tell a length, one of them turns most to each side.
+At the end of an increment that goes on over events pairs obey other parts of the law, see `increment_ends`.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ import numpy as np
 
 from signorini.arrays import Array, IntArray
 from signorini.derivative.forward import ForwardWalk, change_of_conditions
+from signorini.derivative.increment_ends import to_side
 from signorini.derivative.interface_system import PairStates
 from signorini.derivative.points import GRAZES, ZERO, TapePoint
 from signorini.derivative.space_conditions import states_of_piece
@@ -74,6 +76,12 @@ class EventOrder:
                 self._first()
             elif point.ends_at_events and on_edge(point):
                 self._one_by_one()
+            elif not point.at_event and on_edge(point):
+                there = to_side(walk, self.way, self.rounding)
+                if there is None:
+                    raise _not_known(point)
+                walk.put([there], like=point)
+                walk.go_on()
             else:
                 if point.quiet is not None and point.tied:
                     walk.put([replace(point, quiet=walk.quiet_move(point.quiet, self.way).end)], like=point)

@@ -21,7 +21,6 @@ from signorini.derivative.forward import ForwardWalk, PointChange, forward
 from signorini.derivative.functionals import value, weights_at_start
 from signorini.derivative.moduli import ModulusChange
 from signorini.derivative.modulus_pairs import ModulusPairs
-from signorini.derivative.one_sided import beside
 from signorini.derivative.parameters import change_of
 from signorini.derivative.points import TapePoint
 from signorini.derivative.recursion import AtOnce, Change, changed
@@ -162,22 +161,24 @@ class TapedHistory:
         """
         if not found:
             return self, self
-        view = replace(self.view, points=self.view.points[: last + 1])
-        sides = beside(view, self.legs, found, what, lambda way: self._in_order(change, way, view.points))
-        low, high = (self if points is view.points else self.on(points) for points in sides)
-        return low, high
+        points = self.view.points[: last + 1]
+        unknown = [edge for edge in found if len(points[edge.point].stays)]
+        words = f"{[*unknown, *found][0].words}: what {what} does on the other side is not known"
+        if unknown or any(points[edge.point].system.locked != points[-1].system.locked for edge in found):  # bolts lock
+            raise InputError(words)
+        try:
+            below, above = (self.on(self._in_order(change, way, points)) for way in (-1.0, 1.0))
+        except InputError as error:
+            raise InputError(f"{words}; {error}") from error
+        return below, above
 
     def _in_order(self, change: Change, way: float, points: Sequence[TapePoint]) -> Sequence[TapePoint]:
         """Points of the history with those between events that a change takes apart to one side, kept."""
         key = change, way, len(points)
         if key not in self._ordered:
-            order = EventOrder(
-                walk=ForwardWalk(points, self._at_once(change), self.start.changes(GapRate.of(change), way)[0]),
-                legs=self.legs,
-                way=way,
-                moves=max(abs(found.part) for found in self._upwards(change)),
-                rounding=_rounding(change),
-            )
+            walk = ForwardWalk(points, self._at_once(change), self.start.changes(GapRate.of(change), way)[0])
+            moves = max(abs(found.part) for found in self._upwards(change))
+            order = EventOrder(walk=walk, legs=self.legs, way=way, moves=moves, rounding=_rounding(change))
             self._ordered[key] = order.points()
         return self._ordered[key]
 
