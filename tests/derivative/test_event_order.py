@@ -223,7 +223,8 @@ def test_pairs_that_touch_together_at_the_end_of_an_increment(friction):
     def tilted(part):
         return replace(model, mesh=replace(model.mesh, points=model.mesh.points + part * motion))
 
-    outputs = (sg.force("joint", along=(0, 1, 0)), sg.force("joint", along=(0, 0, 1)), sg.moment("joint", about=(0, 0, 0), axis=1))
+    forces = [sg.force("joint", along=along) for along in ((0, 1, 0), (0, 0, 1))]
+    outputs = [*forces, sg.moment("joint", about=(0, 0, 0), axis=1)]
     wanted = limits(outputs, tilted, 1e-5, here=0.0)
     for output, sides in zip(outputs, wanted, strict=True):
         assert solution.derivative(output).shape_sides(motion) == pytest.approx(sides, rel=1e-6, abs=1e-6)
