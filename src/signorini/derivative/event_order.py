@@ -111,6 +111,8 @@ class EventOrder:
         if not walk.ahead:
             return
         behind = walk.next
+        if not behind.system.alike(point.system):
+            raise _not_known(point)
         begin = np.isin(np.arange(point.system.pairs), pairs) & (point.states.held & ~behind.states.held).all(axis=0)
         if not begin.any():
             return
@@ -177,7 +179,7 @@ class EventOrder:
         grows = self.way * change_of_conditions(here, self.walk.at_load(here))[numbers]
         rates = known.rate[numbers]
         # with the events that it takes apart here, where no others move
-        moves = max(self.moves, float(np.abs(grows).max(initial=0.0)) / here.fastest)
+        moves = max(self.moves, float(np.abs(grows).max(initial=0.0)) / (here.fastest or np.inf))
         none = np.maximum(SHARED_EVENT * moves * np.abs(rates), scale * max(ZERO * moves, self.rounding))
         return _Piece(point=here, numbers=numbers, grows=grows, rates=rates, none=none)
 
