@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from signorini.arrays import stored
-from signorini.distributed import kept_rows, mesh_rows
+from signorini.distributed import kept_rows, mesh_rows, ranks
 from signorini.distributed.kept_rows import RowsKept
 from signorini.distributed.mesh_rows import at_hand, let_go
 from signorini.distributed.ranks import lend
@@ -20,7 +20,7 @@ from tests.helpers.fake_ranks import RanksInTurn
 @pytest.fixture
 def team(monkeypatch):
     found = RanksInTurn(3)
-    for module in (kept_rows, mesh_rows):
+    for module in (kept_rows, mesh_rows, ranks):
         monkeypatch.setattr(module, "several_ranks", lambda: found)
     monkeypatch.setattr(kept_rows, "_WORTH", 1)
     return found

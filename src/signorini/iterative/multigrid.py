@@ -163,13 +163,15 @@ def _inverses(blocks: Array) -> SingleArray:
 
 
 def _inverse(A: Array) -> Array:
-    """(n, n) Of a positive semidefinite matrix; of motions that nothing resists as many are held as there are.
+    """(n, n) Of a positive semidefinite matrix; none of motions that nothing resists.
 
-    By a factorisation with pivots, which takes half of the time of eigenvalues.
+    By a factorisation with pivots, which takes half of the time of eigenvalues; these tell what is resisted a little.
     """
     factor, order, rank, _ = lapack.dpstrf(A, tol=_FREE_MOTION * A.diagonal().max(initial=0.0), lower=1)
-    kept = order[:rank] - 1
-    part = np.tril(lapack.dpotri(factor[:rank, :rank], lower=1)[0]) if rank else np.zeros((0, 0))
-    made = np.zeros(A.shape)
-    made[np.ix_(kept, kept)] = part + np.tril(part, -1).T
+    if rank < len(A):
+        found = np.linalg.pinv(A, rcond=_FREE_MOTION, hermitian=True)
+        return np.asarray(0.5 * (found + found.T))
+    part = np.tril(lapack.dpotri(factor, lower=1)[0])
+    made = np.empty(A.shape)
+    made[np.ix_(order - 1, order - 1)] = part + np.tril(part, -1).T
     return made
