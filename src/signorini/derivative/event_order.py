@@ -83,8 +83,8 @@ class EventOrder:
                 walk.put([there], like=point)
                 walk.go_on()
             else:
-                if point.quiet is not None and point.tied:
-                    walk.put([replace(point, quiet=walk.quiet_move(point.quiet, self.way).end)], like=point)
+                if point.tied:
+                    walk.put([replace(point, quiet=walk.quiet_move(self.way).end)], like=point)
                 walk.go_on()
         return walk.points
 
@@ -96,14 +96,15 @@ class EventOrder:
         parts = -change_of_conditions(point, walk.at_load(point))[numbers] / known.rate[numbers]
         later = self.way * parts - float(np.min(self.way * parts))
         apart = later > SHARED_EVENT * self.moves
-        if apart.any():
-            acts = int(numbers[np.argmin(later)])
-            walk.put([replace(point, acting=known.pair[[acts]], acts=acts)], like=point)
+        if not apart.any():
+            walk.go_on()
+            return
+        acts = int(numbers[np.argmin(later)])
+        walk.put([replace(point, acting=known.pair[[acts]], acts=acts)], like=point)
         walk.go_on()
-        if apart.any():
-            if not (walk.ahead and walk.next.leg == point.leg and walk.next.passes):
-                raise _other_lengths(point)
-            self._slip_behind(point, known.pair[numbers[apart]])
+        if not (walk.ahead and walk.next.leg == point.leg and walk.next.passes):
+            raise _other_lengths(point)
+        self._slip_behind(point, known.pair[numbers[apart]])
 
     def _slip_behind(self, point: TapePoint, pairs: IntArray) -> None:
         """What the next increment, on smooth cones, knows of pairs at their limit that begin to slip in it."""

@@ -13,7 +13,7 @@ from signorini.derivative.adjoint_terms import BoundTerm
 from signorini.derivative.conditions import PieceEvent
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint, with_trials
-from signorini.derivative.quiet_ends import QuietEnd, QuietMove
+from signorini.derivative.quiet_ends import QuietMove
 from signorini.derivative.recursion import AtOnce
 
 
@@ -95,7 +95,7 @@ class ForwardWalk:
                 event = point.event
                 part = -(event.change(h, r) + (0.0 if bound is None else _of_bound(event, bound))) / event.rate
             elif point.quiet is not None and i:
-                move = self.quiet_move(point.quiet)
+                move = self.quiet_move()
                 part, turned = move.part, move.turned
             if part:
                 assert point.rates is not None
@@ -107,12 +107,13 @@ class ForwardWalk:
         with point.determined():
             return _of_all(point.system, *self._at_load(point), 0.0, self._bound(point.system))
 
-    def quiet_move(self, end: QuietEnd, way: float | None = None) -> QuietMove:
+    def quiet_move(self, way: float | None = None) -> QuietMove:
         """How the next point moves, an end in space at which nothing happens; ``way`` as of `QuietEnd.move`."""
         i, point = len(self.found), self.next
+        assert point.quiet is not None
         one, two = (self.found[k].part if k >= 0 and self.points[k].leg == point.leg else 0.0 for k in (i - 1, i - 2))
         tried = [self._at_load(trial)[1] for trial in point.trials]
-        return end.move(one, two, self.found[-1].r[1:, point.system.active] / point.system.root, tried, way)
+        return point.quiet.move(one, two, self.found[-1].r[1:, point.system.active] / point.system.root, tried, way)
 
     def _bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What is changed of the friction, kept."""
