@@ -33,6 +33,7 @@ from signorini.fem.displacement_products import Products
 from signorini.fem.kinematics import straining_groups
 
 _SUBSTITUTED_POINTS = 3  # points of a history at most: adjoint displacements are found one by one of so many
+_SAME_CONDITION = 1e-12  # of the data of the law: by how much conditions differ between bodies that are the same
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,6 +56,11 @@ class BodyChange:
     tilts: bool
     motion: Array | None = None
     _moved: dict[TapePoint, tuple[Array, Array]] = field(default_factory=dict, init=False)
+
+    @property
+    def rounding(self) -> float:
+        """What rounding makes of the change of a condition, of the data of the law."""
+        return _SAME_CONDITION / self.step
 
     @cached_property
     def stiffness(self) -> sp.csr_array:

@@ -95,7 +95,8 @@ class EventOrder:
         numbers = np.array([known.number(point.event), *point.shared])
         parts = -change_of_conditions(point, walk.at_load(point))[numbers] / known.rate[numbers]
         later = self.way * parts - float(np.min(self.way * parts))
-        apart = later > SHARED_EVENT * self.moves
+        least = self.rounding * (point.system.law.scale or 1.0) / np.abs(known.rate[numbers])
+        apart = later > np.maximum(SHARED_EVENT * self.moves, least)
         if not apart.any():
             walk.go_on()
             return

@@ -29,7 +29,7 @@ from signorini.derivative.shared_events import SharedEvents
 from signorini.derivative.tape_points import tape_points
 from signorini.derivative.tied_peaks import TiedPeak, at_peaks, tied_peaks
 from signorini.derivative.touching_start import GapRate, TouchingStart
-from signorini.derivative.validity import PathEdge, edges, validity
+from signorini.derivative.validity import PathEdge, edges, least_apart, validity
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
 from signorini.engine.tape import Tape
@@ -38,7 +38,6 @@ from signorini.model.model import Model
 from signorini.model.outputs import Displacement, Output
 from signorini.solution.sensitivities import Validity
 
-_SAME_CONDITION = 1e-12  # of the data of the law: by how much conditions differ between bodies that are the same
 _TWO_SIDES = 1e-6  # of a derivative: what those to both sides may differ by and still be the same up to differences
 _NO_CHANGE = 1e-10  # of an output over what is given: a derivative that is as good as none
 _MOST_TIED = 20  # nodes whose pressures are followed one by one
@@ -177,8 +176,9 @@ class TapedHistory:
         key = change, way, len(points)
         if key not in self._ordered:
             walk = ForwardWalk(points, self._at_once(change), self.start.changes(GapRate.of(change), way)[0])
-            moves = max(abs(found.part) for found in self._upwards(change))
-            order = EventOrder(walk=walk, legs=self.legs, way=way, moves=moves, rounding=_rounding(change))
+            found = self._upwards(change)
+            moves, least = max(abs(one.part) for one in found), least_apart(self.view, found, _rounding(change))
+            order = EventOrder(walk=walk, legs=self.legs, way=way, moves=moves, rounding=least)
             self._ordered[key] = order.points()
         return self._ordered[key]
 
@@ -190,7 +190,7 @@ class TapedHistory:
 
 def _rounding(change: Change) -> float:
     """Of the data of the law, per unit of a change: what rounding makes of conditions."""
-    return _SAME_CONDITION / change.step if isinstance(change, BodyChange) else 0.0
+    return change.rounding if isinstance(change, BodyChange) else 0.0
 
 
 class DirectionalDerivative:

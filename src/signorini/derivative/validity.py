@@ -18,6 +18,8 @@ from signorini.solution.sensitivities import Validity
 SHARED_EVENT = 1e-7
 """Of the largest move of an event: by how much events that share a load may move apart."""
 
+_NOTHING_APART = 1e-11  # of what a parameter changes of all conditions of a history: of those on edges less is rounding
+
 
 def validity(view: HistoryView, changes: Sequence[PointChange], at_start: Sequence[PathEdge]) -> Validity:
     """The interval of a parameter, from what it changes at every point.
@@ -80,6 +82,7 @@ def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0
     rounding : of the data of the law, per unit: what a change of a condition is as good as none below
     """
     moves = max((abs(change.part) for change in changes), default=0.0)
+    rounding = least_apart(view, changes, rounding)
     found = list[PathEdge]()
     for i, (point, change) in enumerate(zip(view.points, changes, strict=True)):
         found += _turning_alike(view, i, change, ZERO * moves)
@@ -97,6 +100,21 @@ def edges(view: HistoryView, changes: Sequence[PointChange], rounding: float = 0
             if apart and abs(grows) > scale * max(ZERO * moves, rounding):
                 found.append(PathEdge(point=i, condition=k, change=grows, words=edge_words(view, point, k)))
     return found
+
+
+def least_apart(view: HistoryView, changes: Sequence[PointChange], rounding: float) -> float:
+    """What a change of a condition is as good as none below, of the data of the law, per unit of a parameter.
+
+    A history that retraces what it did before comes to the events of all pairs at one load whatever is varied: where
+    nothing else moves, all that tells them apart is rounding.
+
+    Parameters
+    ----------
+    view, changes, rounding : of `edges`
+    """
+    both = zip(view.points, changes, strict=True)
+    most = (np.abs(change_of_conditions(*one)).max(initial=0.0) / (one[0].system.law.scale or 1.0) for one in both)
+    return max(rounding, _NOTHING_APART * float(max(most, default=0.0)))
 
 
 def _turning_alike(view: HistoryView, i: int, change: PointChange, least: float) -> Iterator[PathEdge]:

@@ -8,6 +8,7 @@ import pytest
 
 from signorini.errors import InputError
 from signorini.friction.history import PathSettings, follow, initial_state
+from signorini.friction.history.space.straight import friction_turns, held_until
 from signorini.friction.problem import ContactProblem
 from signorini.friction.solve import solve_contact
 from tests.helpers.contact_samples import block_on_floor
@@ -184,3 +185,14 @@ def test_loads_that_are_no_loads_are_refused(end, said):
     problem = in_space(0.5 * np.eye(3), 0.5, 0)
     with pytest.raises(InputError, match=said):
         follow(problem, initial_state(problem, np.zeros(3)), end)
+
+
+def test_a_pair_that_leaves_its_limit_and_comes_to_it_elsewhere_sticks_up_to_there():
+    """It slips a little at the end of a piece, whose friction has gone along a chord; a turn all the way slips far."""
+    problem = in_space(0.5 * np.eye(3), 0.3, 0)
+    start = replace(initial_state(problem, np.zeros(3)), h=np.zeros((3, 1)), r=np.array([[1.0], [-0.3], [0.0]]))
+    end = np.array([[1.0], [0.0], [-0.3]])
+    for slip, until, turn in ((3e-6, 1.0 - 1e-5, 0.0), (3.0, 1.0, np.pi / 2)):
+        h = np.array([[0.0], [0.0], [slip]])
+        assert held_until(problem, start, h, end, 1e-9) == pytest.approx(until, abs=1e-9)
+        assert friction_turns(problem, start, end, h[1:], 1e-9) == pytest.approx(turn)

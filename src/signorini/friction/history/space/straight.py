@@ -71,11 +71,9 @@ def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, wi
     until[opens] = p[opens] / (p + opening)[opens]
     size = np.linalg.norm(slip, axis=0)
     slips = (pressing > 0) & (size > width) & ~closes
-    most = problem.bound.at(p) * problem.section.farthest(slip)
-    lacking = ((most + start.r[1:]) * slip).sum(axis=0) / np.where(slips, size, 1.0)
+    lacking = _lacking(problem, start, slip)
     # on a smooth section the force turns with the slip; how far is another question, see `friction_turns`
-    inside = (problem.section.sides > 0) | (problem.law.reserve(start.r) > width)
-    starts = slips & inside & (lacking > width)
+    starts = slips & ~_turns(problem, start, slip, width) & (lacking > width)
     until[starts] = lacking[starts] / (lacking + size)[starts]
     for kink in problem.pieces.kinks[1:-1]:
         low, high = np.minimum(p, pressing), np.maximum(p, pressing)
@@ -95,10 +93,37 @@ def friction_turns(problem: ContactProblem, start: PathState, r: Array, slip: Ar
     one, two = start.r[1:], r[1:]
     long = np.minimum(np.linalg.norm(one, axis=0), np.linalg.norm(two, axis=0))
     slips = np.linalg.norm(slip, axis=0) > width
-    spent = problem.law.reserve(start.r) <= width
-    which = slips & (problem.section.sides == 0) & (long > 1e3 * width) & spent
+    which = slips & (long > 1e3 * width) & _turns(problem, start, slip, width)
     cross, along = one[0] * two[1] - one[1] * two[0], (one * two).sum(axis=0)
     return np.where(which, np.arctan2(cross, along), 0.0)
+
+
+def _lacking(problem: ContactProblem, start: PathState, slip: Array) -> Array:
+    """(n,) The force along a slip that a pair lacks at the beginning of a piece to slip so; 0 without a slip.
+
+    Parameters
+    ----------
+    problem, start, slip : see `friction_turns`
+    """
+    most = problem.bound.at(start.r[0]) * problem.section.farthest(slip)
+    size = np.linalg.norm(slip, axis=0)
+    along = ((most + start.r[1:]) * slip).sum(axis=0)
+    return np.divide(along, size, out=np.zeros_like(along), where=size > 0.0)
+
+
+def _turns(problem: ContactProblem, start: PathState, slip: Array, width: float) -> BoolArray:
+    """(n,) Whether pairs that slip in a piece do so all the way, under a friction that turns with them.
+
+    On smooth sections, from their limit on. A pair that leaves its limit, and comes to it elsewhere, has slipped by
+    little beside the force that it lacks at the beginning: it sticks up to there, as on a chord of its section.
+
+    Parameters
+    ----------
+    problem, start, slip, width : see `friction_turns`
+    """
+    spent = problem.law.reserve(start.r) <= width
+    chord = _lacking(problem, start, slip) > np.linalg.norm(slip, axis=0)
+    return np.asarray((problem.section.sides == 0) & spent & ~chord)
 
 
 def extrapolated_length(problem: ContactProblem, start: PathState, end: PathState, width: float) -> float:
