@@ -27,6 +27,7 @@ from signorini.law.result import ContactAnswer
 from signorini.law.states import OPEN, STICK
 
 END_ROUNDING = 1e-9  # part of an increment: what comes so late does not happen in it
+_CHORD = 1e-3  # of the force that a pair lacks to slip: it slips by more where it does so all the way along an arc
 _VALUE_ROUNDING = 1e-12  # of the values that a rate is the difference of
 
 
@@ -114,15 +115,16 @@ def _lacking(problem: ContactProblem, start: PathState, slip: Array) -> Array:
 def _turns(problem: ContactProblem, start: PathState, slip: Array, width: float) -> BoolArray:
     """(n,) Whether pairs that slip in a piece do so all the way, under a friction that turns with them.
 
-    On smooth sections, from their limit on. A pair that leaves its limit, and comes to it elsewhere, has slipped by
-    little beside the force that it lacks at the beginning: it sticks up to there, as on a chord of its section.
+    On smooth sections, from their limit on. A pair that leaves its limit, and has just come to it elsewhere, has
+    slipped by next to nothing beside the force that it lacks at the beginning: it sticks up to there, on a chord. That
+    an arc takes a slip is known of scaled motions and forces, as compliances of these are of the order of 1.
 
     Parameters
     ----------
     problem, start, slip, width : see `friction_turns`
     """
     spent = problem.law.reserve(start.r) <= width
-    chord = _lacking(problem, start, slip) > np.linalg.norm(slip, axis=0)
+    chord = _CHORD * _lacking(problem, start, slip) > np.linalg.norm(slip, axis=0)
     return np.asarray((problem.section.sides == 0) & spent & ~chord)
 
 
