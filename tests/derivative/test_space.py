@@ -90,6 +90,12 @@ def test_where_a_pair_begins_to_slip_between_increments_is_found_to_rounding(see
     assert max(random_cones.differences(seed).values()) < 1e-6
 
 
+@pytest.mark.slow
+def test_a_length_that_hangs_on_an_event_beyond_the_increment_is_refused():
+    with pytest.raises(sg.InputError, match=r"up to load factor 2\.42.* met which were tried: it is not followed"):
+        random_cones.taped(random_cones.random_model(43))
+
+
 @pytest.mark.parametrize("parameter", ["friction.joint", "load.pull"])
 def test_bodies_that_twist(parameter):
     model = twisted_rig()

@@ -113,6 +113,9 @@ def _in_space(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[TapePo
             acting = acting_pairs(found.conditions, (before.h, before.r), found.piece_end)
             if len(acting):
                 found = replace(found, acting=acting)
+            elif not piece.told:
+                words = "has a length that was told by what others met which were tried"
+                raise InputError(f"the increment up to load factor {found.load_factor:.9g} {words}: it is not followed")
             else:
                 trials = tuple(_increment(number, leg, system, (before, one), load_rate) for one in piece.search)
                 rates = [trial.rates[1] for trial in trials if trial.rates is not None]

@@ -53,6 +53,7 @@ class Breakpoint:
     passes : in space, whether it is short enough to go on over an event
     search : in space, ends of increments tried before: how far friction turns in one told the length of the next, and
         in the last that of this one; empty where anything else did
+    told : in space, on smooth sections, whether the first of them, or this one, has a length that is known beforehand
     """
 
     factor: float
@@ -64,6 +65,7 @@ class Breakpoint:
     acting: IntArray | None = None
     passes: bool = False
     search: tuple[Breakpoint, ...] = ()
+    told: bool = True
 
 
 @dataclass(frozen=True, kw_only=True)

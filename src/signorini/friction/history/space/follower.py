@@ -188,7 +188,8 @@ class SpaceFollower(PathFollower):
             elif trial.turn > self._turn:
                 step *= SHORT * self._turn / trial.turn
             else:
-                self._enter(trial, settled(self.problem, self.now, trial, rates.state), self.tried - tried)
+                after = settled(self.problem, self.now, trial, rates.state)
+                self._enter(replace(trial, told=False), after, self.tried - tried)
                 return True
         return False
 
@@ -232,15 +233,14 @@ class SpaceFollower(PathFollower):
         inner: SolvedIncrement | None = None
         beyond: SolvedIncrement | None = None
         search: tuple[SolvedIncrement, ...] = ()  # that told lengths one after the other, see `Breakpoint`
-        tried, words, longest, barrier = self.tried, "", left, self._barrier - self.factor
+        tried, told, words, longest, barrier = self.tried, True, "", left, self._barrier - self.factor
         self._barrier = np.inf
         if _LOST < barrier <= step:  # where the last one was refused is not tried again before it is near
-            step, longest = 0.5 * barrier, barrier
+            step, longest, told = 0.5 * barrier, barrier, False
         for number in range(TRIES):
             late = self._missed(number, _EVENT_TRIES)
             trial = self._trial(step, shortest, self._guess(step))
             if isinstance(trial, ContactAnswer):
-                search = ()
                 words, longest, barrier = trial.message, step, step
                 self._barrier = self.factor + step
                 if not self._leaves:
@@ -250,7 +250,7 @@ class SpaceFollower(PathFollower):
                 step = step / 16.0 if best is None else 0.5 * (best.step + step)
             elif trial.until >= 1.0 - min(late, _LATE_EVENT_TOL) and trial.turn <= self._turn:
                 inner = inner or trial
-                step, best = self._aim(trial, best, inner.after.state), replace(trial, search=search)
+                step, best = self._aim(trial, best, inner.after.state), replace(trial, search=search, told=told)
                 if step >= longest and longest < left:
                     if longest == barrier and longest <= trial.step * (1.0 + _REFUSED):
                         break
@@ -275,15 +275,21 @@ class SpaceFollower(PathFollower):
                     break
             if step < LEAST_STEP:
                 break
-            if isinstance(trial, SolvedIncrement):
-                search = (*search, trial) if step == turned_length(trial, self._turn) else ()
+            if isinstance(trial, SolvedIncrement) and step == turned_length(trial, self._turn):
+                search = (*search, trial)
+            else:
+                search, told = (), step in (shortest, left)
         if best is None or inner is None:
-            tries = f"{self.tried - tried} tried, at most {TRIES}"
-            return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually ({tries}: {words})"
+            return f"{self._nothing} ({self.tried - tried} tried, at most {TRIES}: {words})"
         exact = best.until >= 1.0 - END_ROUNDING
         after = settled(self.problem, self.now, best, inner.after.state if exact else best.after.state)
         self._enter(best, after, self.tried - tried)
         return ""
+
+    @property
+    def _nothing(self) -> str:
+        """That nothing was found here."""
+        return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually"
 
     def _missed(self, number: int, tries: int) -> float:
         """Part of an increment by which it may end beside what ends it, after so many tries of those that are sharp."""
@@ -358,7 +364,7 @@ class SpaceFollower(PathFollower):
         self.factor = 1.0 if self.factor + trial.step >= 1.0 - LEAST_STEP else self.factor + trial.step
         self.now, self.last = after, trial.step
         end = Breakpoint(factor=self.factor, h=after.h, r=after.r, state=after, tried=tried, passes=passes)
-        self.pieces.append(replace(end, search=search))
+        self.pieces.append(replace(end, search=search, told=trial.told or not self.smooth))
         self.residual = max(self.residual, trial.result.residual)
 
     def ended(self, lost: NoRates) -> Segment:

@@ -43,7 +43,7 @@ class SolvedIncrement:
     until : part of it up to which the law holds on a straight way
     each : (n,) that part of every pair
     turn : largest angle by which friction turns
-    search : increments tried before that told its length, see `Breakpoint`
+    search, told : increments tried before that told its length, and whether they did, see `Breakpoint`
     """
 
     step: float
@@ -53,6 +53,7 @@ class SolvedIncrement:
     each: Array
     turn: float
     search: tuple[SolvedIncrement, ...] = ()
+    told: bool = True
 
 
 def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, width: float) -> Array:
