@@ -288,7 +288,7 @@ class SpaceFollower(PathFollower):
 
     @property
     def _nothing(self) -> str:
-        """That nothing was found here."""
+        """Words for that nothing was found here."""
         return f"at factor {self.factor:.12g}: no increment, however short, goes on gradually"
 
     def _missed(self, number: int, tries: int) -> float:
