@@ -18,6 +18,7 @@ import signorini as sg
 from signorini.cli.main import main
 from signorini.deck import load_deck
 from signorini.engine import first_run
+from signorini.gallery.coarse import hertz_line
 from signorini.linalg._fronts import sizes
 from signorini.linalg.plan import Fronts
 
@@ -26,6 +27,7 @@ DECK = Path(__file__).parents[2] / "examples" / "zhu_cylinder_frictionless.toml"
 
 def test_the_list_has_the_types_that_a_run_calls_loops_with():
     sg.solve(load_deck(DECK).model)
+    sg.solve(hertz_line(cells="triangle", order=1))  # quadrilaterals have a loop of their own
     for loop, arguments in first_run.calls():
         assert tuple(typeof(argument) for argument in arguments) in loop.overloads, loop
 
@@ -94,6 +96,7 @@ RUN = """
 import sys
 from numba.core import event
 from signorini.engine import first_run
+from signorini.gallery.coarse import hertz_line
 from signorini.cli.main import main
 from signorini.cli.main import main
 

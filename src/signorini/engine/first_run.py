@@ -67,7 +67,7 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
     points.flags.writeable = False  # as meshes keep them
     laws = _kernels.Laws(np.zeros((1, 3), np.uint32), square, real, 2)
     kept = _kernels.MatrixRows(small, small, real)
-    pattern = _kernels.SparsityPattern(large, small, real)
+    pattern, share = _kernels.SparsityPattern(large, small, real), _kernels.Share(small, small, 0)
     return [
         (felt_stiffness, (small, small, real, small, small, real, 1)),
         (block_on, (small, small, real, large, large)),
@@ -89,7 +89,8 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
         (both_ways, (graph,)),
         (quotient_rows, (graph, small, small, small, (0, 1))),
         (_kernels.keep_rows, (kept, small, kept, 0, 1)),
-        (_kernels.add_block, (points, cells, laws, pattern, _kernels.Share(small, small, 0))),
+        (_kernels.add_block, (points, cells, laws, pattern, share)),
+        (_kernels.add_quadrilaterals, (points, cells, laws, pattern, share)),
         (_kernels.unknown_pattern, (large, small, 2)),
         (_kernels.node_pattern, (large, small, 1)),
     ]

@@ -11,7 +11,7 @@ exists.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
@@ -147,10 +147,18 @@ def _add_share(
         if of.any():  # not all is one share
             owners = of[elements.nodes]
             cells = cells[(owners.min(axis=1) <= share) & (share <= owners.max(axis=1))]
-        element, wrong = _kernels.add_block(points, elements, laws, pattern, _kernels.Share(cells, of, share))
+        element, wrong = _adding(points, elements, laws)(
+            points, elements, laws, pattern, _kernels.Share(cells, of, share)
+        )
         if wrong:
             return number, element, wrong
     return None
+
+
+def _adding(points: Array, elements: Cells, laws: _kernels.Laws) -> Callable[..., tuple[int, int]]:
+    """The kernel of a block: plane quadrilaterals, of which most plane meshes are, have one of their own."""
+    plain = (elements.nodes.shape[1], points.shape[1], laws.components, *elements.modes.shape[2:]) == (4, 2, 2, 0, 2)
+    return _kernels.add_quadrilaterals if plain else _kernels.add_block
 
 
 def _nodes(block: Cells, points: Array, number: int) -> Int32Array:
