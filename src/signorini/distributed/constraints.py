@@ -13,12 +13,13 @@ import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray, distinct
 from signorini.distributed.bodies import RowsOnRanks
+from signorini.distributed.columns import ColumnsOnRanks
 from signorini.distributed.multigrid import matrix
 from signorini.distributed.rank_arrays import ArrayOnRanks, Cut, Remembered
 from signorini.distributed.ranks import Team
 from signorini.fem.rigid_motions import RigidMotions
 from signorini.fem.supports import Constraints, Motions, transform_of
-from signorini.sparse_rows import chosen_rows, transposed
+from signorini.sparse_rows import chosen_columns, chosen_rows, transposed
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -69,7 +70,7 @@ class ConstraintsOnRanks(Constraints):
     @property
     def zeros(self) -> Any:
         """(dofs,) Zeros, on the ranks."""
-        return self.spread(np.zeros(0, np.int64), np.zeros(0))
+        return self.rows.stiffness.vectors.zeros
 
     def placed(self, values: Any) -> Any:
         """Values (dofs,), which nobody changes, on the ranks."""
@@ -111,6 +112,19 @@ class ConstraintsOnRanks(Constraints):
         if not isinstance(displacement, ArrayOnRanks):
             return super().free_of(displacement)
         return self.rows.unknowns.made(_free_of, self.rows.stiffness.vectors.of(displacement), self.moved.number)
+
+    def in_free(self, rows: sp.csr_array) -> sp.csr_array:
+        """(k, z) Rows (k, dofs) in terms of the free displacements: of these, only what rows see is asked for."""
+        if len(self.dependent):
+            return super().in_free(rows)
+        seen = distinct(rows.indices)
+        transform = transform_of(self.free[seen], self.rows.unknowns.size, self.dependent, self.shares)
+        return sp.csr_array(chosen_columns(rows, seen) @ transform)
+
+    def of_free(self, motions: Array) -> Any:
+        """(z, k) The free displacements in motions (dofs, k), on the ranks."""
+        cut = self.rows.stiffness.vectors
+        return ColumnsOnRanks(self.rows.unknowns, [self.free_of(cut.of(motion)) for motion in motions.T])
 
     def resultants(self, rigid: Motions, forces: Any) -> Array:
         """(k,) Work of forces (dofs,) on k rigid motions."""
