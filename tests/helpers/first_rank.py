@@ -9,12 +9,14 @@ import gc
 import json
 import sys
 import types
+from dataclasses import replace
 
 import numpy as np
 
 import signorini as sg
 from signorini.distributed.ranks import Team, lend
 from signorini.engine import solve as following
+from signorini.meshing.cut import cut
 from signorini.meshing.solid import box
 from signorini.model.obstacle import Plane
 
@@ -34,7 +36,19 @@ def column(**more):
     return sg.Model(box(x=side, y=side, z=np.linspace(0.0, 30.0, 181)), bodies=bodies, **(given | more))
 
 
+def bolted():
+    """A column in which a bolt pushes the foot down, whose length is locked before the column is pressed."""
+    model = column()
+    mesh = cut(model.mesh, "section", body="block", point=(0.0, 0.0, 15.0), normal=(0.0, 0.0, 1.0))
+    steps = [
+        sg.Step(name="tighten", increments=1, scale={"bolt": 1.0, "top": 0.0, "block": 1.0}),
+        sg.Step(name="press", increments=1, hold=["bolt"], scale={"top": 1.0}),
+    ]
+    return replace(model, mesh=mesh, bolts=[sg.Bolt("section", force=-1e-4, name="bolt")], steps=steps)
+
+
 MODELS = {
+    "bolted column": bolted,
     "column": column,
     "supports that change": lambda: column(
         steps=[

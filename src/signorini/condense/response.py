@@ -226,15 +226,12 @@ def keep_pairs(
     """
     K, B, nodes, points = bodies[:4]
     m, n = B.shape
-    pair = len(points) + np.tile(np.arange(len(at)), m // max(1, len(at)))
-    factorisation = factorise(
-        bordered(held_by_springs(K, rigid, stiffness), B),
-        np.arange(n, n + m),
-        nodes=np.concatenate([nodes, pair]),
-        points=np.concatenate([points, at]),
-        backend=backend,
-        plans=plans,
-    )
+    order: dict[str, Any] = {"plans": plans}
+    if not is_elsewhere(K):  # there nobody asks where unknowns are
+        pair = len(points) + np.tile(np.arange(len(at)), m // max(1, len(at)))
+        order |= {"nodes": np.concatenate([nodes, pair]), "points": np.concatenate([points, at])}
+    K = bordered(held_by_springs(K, rigid, stiffness), B)
+    factorisation = factorise(K, np.arange(n, n + m), backend=backend, **order)
     left, factorisation = factorisation.parted()
     kept = {"left": left, "diagonal": left.diagonal().copy()}
     return ByPairs(factorisation=factorisation, rows=np.arange(m), B=B, rigid=rigid, **kept)

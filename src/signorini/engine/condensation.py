@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import BoolArray
+from signorini.arrays import BoolArray, stored
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.kept import Kept
@@ -23,6 +23,7 @@ from signorini.fem.supports import Constraints
 from signorini.interface.active import FreeBodies
 from signorini.interface.sliding import sliding_unknowns
 from signorini.iterative.bodies import ITERATIVE
+from signorini.linalg.elsewhere import is_elsewhere
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.linalg.registry import BACKENDS
@@ -58,7 +59,9 @@ def refuse_unknown(backend: str, where: Where = ()) -> None:
 def free_bodies(examined: Examined, K: sp.csr_array) -> FreeBodies:
     """The bodies and their pairs in terms of the free displacements, K (z, z) their stiffness, here or elsewhere."""
     space, constraints = examined.space, examined.constraints
-    bodies = FreeBodies(K, constraints.in_free(examined.interface.B), constraints.nodes, space.places)
+    # of bodies elsewhere nothing is asked but where nodes of pairs are
+    points = stored(space.mesh, "points") if is_elsewhere(K) else space.places
+    bodies = FreeBodies(K, constraints.in_free(examined.interface.B), constraints.nodes, points)
     if not examined.model.slides:
         return bodies
     return bodies._replace(kept=sliding_unknowns(space, examined.model, examined.frames, constraints.transform))

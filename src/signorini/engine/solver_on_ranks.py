@@ -10,7 +10,7 @@ import numpy as np
 from signorini.arrays import BoolArray, among
 from signorini.condense.condensed import Condensed
 from signorini.distributed.bodies import RowsOnRanks, make_bodies_on_ranks
-from signorini.distributed.constraints import ConstraintsOnRanks
+from signorini.distributed.constraints import ConstraintsOnRanks, kept_away
 from signorini.distributed.direct import FactorsOnRanks, MatrixOnRanks
 from signorini.distributed.mesh_rows import at_hand, let_go
 from signorini.distributed.ranks import MUMPS, PETSC, the_team
@@ -94,7 +94,7 @@ def kept_on_ranks(examined: Examined, K: StiffnessOnRanks, known: Condensed | No
     Fields of `Examined`
     """
     constraints, space = examined.constraints, examined.space
-    there = _known(constraints, known)
+    there, always = _known(constraints, known), examined.always
     if there is None:
         with at_hand(space.mesh, space.blocks):
             if not K.serves(constraints):
@@ -107,7 +107,7 @@ def kept_on_ranks(examined: Examined, K: StiffnessOnRanks, known: Condensed | No
     let_go(space)
     return {
         "constraints": there,
-        "always": there if examined.always is constraints else examined.always,
+        "always": there if always is constraints else kept_away(always, K.vectors),
         "loads": {name: K.vectors.of(forces) for name, forces in examined.loads.items()},
     }
 

@@ -141,7 +141,7 @@ class Constraints:
 
     def completed(self, displacement: Array) -> Array:
         """Displacements of all dofs (dofs,), those of dependent ones as they follow from the others."""
-        completed = displacement.copy()
+        completed = np.array(displacement)
         completed[self.dependent] = self.shares @ displacement
         return completed
 
