@@ -34,7 +34,7 @@ from signorini.model.obstacle import Plane
 MODULE = "benchmarks.factorised_on_ranks"
 SIZES = {63: (1,), 31: (1, 2), 54: (1, 2)}  # cells along an edge, the largest first, with numbers of ranks
 SMALL = {12: (1, 2)}
-LONG, SHORT = 5999, 99  # cells along a strip
+LONG, SHORT = (9999, 5999), (99,)  # cells along a strip, the largest first
 LAYERS, THICKNESS = 3, 0.25  # of cells in a plate; of the sides of the plates
 KEPT = "SIGNORINI_PLATES"  # environment variable: the file in which the answer of one process is
 PHASES = ("factorisation", "condensation", "complementarity")
@@ -161,8 +161,10 @@ def main() -> None:
     if options.plane:
         with tempfile.TemporaryDirectory() as folder:
             os.environ[KEPT] = str(Path(folder, "answer.npz"))  # of one process, which is not asked
-            found = on_ranks(1, (SHORT if options.small else LONG,), "--plane", module=MODULE)
-        command.publish(options, "factorised in the plane", page.table(HEAD[:-2], [row("1", found)[:-2]]), PAGE)
+            lines: list[list[object]] = []
+            for cells in SHORT if options.small else LONG:
+                lines.insert(0, row("1", on_ranks(1, (cells,), "--plane", module=MODULE))[:-2])
+                command.publish(options, "factorised in the plane", page.table(HEAD[:-2], lines), PAGE)
         return
     rows: dict[int, list[list[object]]] = {}
     with tempfile.TemporaryDirectory() as folder:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, distinct
 
 _FEW_COLUMNS = 100
 """Columns of a matrix up to which it is multiplied as a table with all its zeros."""
@@ -130,6 +130,19 @@ def chosen_columns(matrix: sp.csr_array, columns: IntArray) -> sp.csr_array:
     number = np.full(matrix.shape[1], -1, np.int32)
     number[columns] = np.arange(len(columns), dtype=np.int32)
     return renumbered(matrix, number, len(columns))
+
+
+def seen_by(matrix: sp.csr_array, values: Any) -> Array:
+    """The product with values (n,), of which only those that entries meet are asked for where they are elsewhere.
+
+    >>> seen_by(sp.csr_array(np.array([[0.0, 2.0]])), np.array([7.0, 3.0])).tolist()
+    [6.0]
+    """
+    if not isinstance(values, np.ndarray):
+        met = distinct(matrix.indices)
+        matrix, values = chosen_columns(matrix, met), values[met]
+    found: Array = matrix @ values
+    return found
 
 
 def of_entries(values: Array, rows: IntArray, columns: IntArray, shape: tuple[int, int]) -> sp.csr_array:

@@ -1,5 +1,6 @@
 """A mesh that ranks keep by rows is the same to whoever asks, and the first one has its boundaries and names alone."""
 
+import json
 from types import MappingProxyType
 
 import numpy as np
@@ -9,12 +10,14 @@ from signorini.arrays import stored
 from signorini.distributed import kept_rows, mesh_rows, ranks
 from signorini.distributed.kept_rows import RowsKept
 from signorini.distributed.mesh_rows import at_hand, let_go
-from signorini.distributed.ranks import lend
+from signorini.distributed.ranks import ON_RANKS, lend
 from signorini.fem.space import make_space
 from signorini.gallery.cubes import cubes
 from signorini.model.mesh import Mesh
 from signorini.output.dataclasses_json import digest, to_plain
+from tests.distributed.test_on_ranks import on_ranks, with_ranks
 from tests.helpers.fake_ranks import RanksInTurn
+from tests.helpers.first_rank import MODELS
 
 
 @pytest.fixture
@@ -75,3 +78,16 @@ def test_without_ranks_nothing_is_lent():
     lend(mesh)
     let_go(make_space(mesh))
     assert isinstance(stored(mesh, "points"), np.ndarray)
+
+
+@with_ranks
+@pytest.mark.slow
+@pytest.mark.parametrize("backend", ON_RANKS)
+@pytest.mark.parametrize("name", MODELS)
+def test_the_first_rank_holds_nothing_as_large_as_the_mesh(name, backend):
+    """Once it was cut: of mesh, supports, loads, displacements and forces; neither in between nor of the history."""
+    done = on_ranks(3, "-m", "tests.helpers.first_rank", backend, name)
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert len(found) > len(MODELS[name]().steps)
+    assert not any(found.values()), found

@@ -8,6 +8,7 @@ import pytest
 import scipy.sparse as sp
 
 from signorini.arrays import ArrayElsewhere, elsewhere, operand
+from signorini.distributed.columns import ColumnsOnRanks
 from signorini.distributed.rank_arrays import Cut, Remembered
 from tests.distributed.test_on_ranks import on_ranks, with_ranks
 from tests.helpers.fake_ranks import RanksInTurn
@@ -84,6 +85,27 @@ def test_whatever_else_is_asked_is_given_all_of_it(cut):
     np.testing.assert_array_equal(np.ones((2, SIZE)) @ a, np.ones((2, SIZE)) @ x)
     np.testing.assert_array_equal(copy.deepcopy(a), x)
     assert not a.whole().flags.writeable
+
+
+def test_columns_are_a_table(cut):
+    """Sums, products and rows of arrays side by side, of none too; and zeros like an array are where it is."""
+    x, y, a, b = two(cut)
+    weights, rows = np.array([[2.0, 0.0], [-1.0, 3.0]]), np.array([9, 2, 9])
+    for here, there in (
+        (np.stack([x, y], axis=1), ColumnsOnRanks(cut, [a, b])),
+        (np.zeros((SIZE, 0)), ColumnsOnRanks(cut, [])),
+    ):
+        w = weights[: here.shape[1], : here.shape[1]]
+        assert there.shape == here.shape
+        np.testing.assert_array_equal(there, here)
+        np.testing.assert_array_equal(there[rows], here[rows])
+        np.testing.assert_allclose(there @ w, here @ w, rtol=0, atol=1e-15)
+        np.testing.assert_allclose(there @ w.sum(axis=1), here @ w.sum(axis=1), rtol=0, atol=1e-15)
+        assert isinstance(there @ w.sum(axis=1), ArrayElsewhere)
+        for values in (x, a):
+            np.testing.assert_allclose(there.T @ values, here.T @ x, rtol=1e-13)
+    assert isinstance(np.zeros_like(a), ArrayElsewhere)
+    assert not np.zeros_like(a).any()
 
 
 def test_at_home_it_is_an_array(cut):

@@ -14,6 +14,7 @@ import signorini as sg
 from signorini.distributed import kept_rows
 from signorini.distributed.ranks import lend
 from signorini.gallery.blocks import block_on_foundation, dragged_block, four_blocks, stacked_blocks
+from signorini.gallery.bolts import bolted_sleeve
 from signorini.gallery.closures import block_on_a_bed
 from signorini.gallery.cubes import cubes
 from signorini.gallery.cylinder import zhu_cylinder
@@ -62,6 +63,21 @@ def several_steps():
     )
 
 
+def held_again():
+    """Blocks whose side is let go under a load that grows, held where it is then, and brought back."""
+    model, factors = coupled(), [{"up.top": factor} for factor in (0.4, 0.6, 0.8, 1.0)]
+    return replace(
+        model,
+        supports=[*model.supports, sg.Support("low.left", u=(0, None), name="side")],
+        steps=[
+            sg.Step(name="press", increments=1, scale=factors[0]),
+            sg.Step(name="let go", increments=2, release=["side"], scale=factors[1]),
+            sg.Step(name="hold", increments=1, hold=["side"], scale=factors[2]),
+            sg.Step(name="bring back", increments=2, restore=["side"], scale=factors[3]),
+        ],
+    )
+
+
 def coupled():
     """A block whose top moves as one, and one whose side follows an equation: unknowns that several ranks feel."""
     mesh = join(
@@ -95,6 +111,8 @@ MODELS = {
     "axisymmetric": lambda: block_on_a_bed(kind="axisymmetric", friction=0.2, steps=[sg.Step(increments=2)]),
     "a closure": lambda: block_on_a_bed("1.0 + x", friction=0.0, steps=[sg.Step(increments=2)]),
     "coupled unknowns": coupled,
+    "a bolt that is locked": lambda: bolted_sleeve()[0],
+    "supports that hold again": held_again,
     "a sector": lambda: ring_on_shaft(whole=False),
     "twist": ring_under_torque,
 }

@@ -33,7 +33,7 @@ from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import Factorisation, Reduced
 from signorini.linalg.registry import factorise
 from signorini.linalg.system import bordered
-from signorini.sparse_rows import chosen_rows, transposed
+from signorini.sparse_rows import chosen_rows, seen_by, transposed
 
 Travel = Callable[[Array], Array]
 """Rigid motion (k,) beyond given relative displacements (d a,) of the pairs."""
@@ -87,7 +87,7 @@ class Response(ABC):
 
     def travelled(self, x: Array, travel: Travel) -> Array:
         """Displacements x, (m,), and the rigid motion beyond them."""
-        return x + self.rigid @ travel(self.B @ x) if self.rigid.shape[1] else x
+        return x + self.rigid @ travel(seen_by(self.B, x)) if self.rigid.shape[1] else x
 
     def among(self, rows: BoolArray) -> Self:
         """This response with some of the (d a,) rows alone."""
@@ -161,10 +161,12 @@ class ByPairs(Response):
 
     def reduce(self, f: Array) -> Reduced:
         """Condense loads (z,) to what they move, and their resultants."""
-        m = self.factorisation.m
+        m, work = self.factorisation.m, self.rigid.T @ f
+        if not isinstance(f, np.ndarray):  # it is on ranks, without the border, and so is what it moves
+            there = self.factorisation.reduce(f)
+            return Reduced(np.concatenate([there.load, work]), there.expand)
         reduced = self.factorisation.reduce(np.concatenate([f, np.zeros((m, *f.shape[1:]))]))
-        load = np.concatenate([reduced.load, self.rigid.T @ f])
-        return Reduced(load, lambda kept: reduced.expand(kept)[:-m])
+        return Reduced(np.concatenate([reduced.load, work]), lambda kept: reduced.expand(kept)[:-m])
 
     def moved(self, load: Array) -> Array:
         """(d a,) Part of the condensed load."""
@@ -224,15 +226,12 @@ def keep_pairs(
     """
     K, B, nodes, points = bodies[:4]
     m, n = B.shape
-    pair = len(points) + np.tile(np.arange(len(at)), m // max(1, len(at)))
-    factorisation = factorise(
-        bordered(held_by_springs(K, rigid, stiffness), B),
-        np.arange(n, n + m),
-        nodes=np.concatenate([nodes, pair]),
-        points=np.concatenate([points, at]),
-        backend=backend,
-        plans=plans,
-    )
+    order: dict[str, Any] = {"plans": plans}
+    if not is_elsewhere(K):  # there nobody asks where unknowns are
+        pair = len(points) + np.tile(np.arange(len(at)), m // max(1, len(at)))
+        order |= {"nodes": np.concatenate([nodes, pair]), "points": np.concatenate([points, at])}
+    K = bordered(held_by_springs(K, rigid, stiffness), B)
+    factorisation = factorise(K, np.arange(n, n + m), backend=backend, **order)
     left, factorisation = factorisation.parted()
     kept = {"left": left, "diagonal": left.diagonal().copy()}
     return ByPairs(factorisation=factorisation, rows=np.arange(m), B=B, rigid=rigid, **kept)
@@ -247,7 +246,7 @@ def held_by_springs(K: Any, rigid: Array, stiffness: float) -> Any:
     """
     if not rigid.shape[1]:
         return K
-    basis = scipy.linalg.qr(rigid, mode="economic")[0]
+    basis = scipy.linalg.qr(np.asarray(rigid), mode="economic")[0]
     dofs = scipy.linalg.qr(basis.T, mode="economic", pivoting=True)[2][: rigid.shape[1]]
     springs = np.zeros(K.shape[0])
     springs[dofs] = K.diagonal().mean() if K.nnz else stiffness

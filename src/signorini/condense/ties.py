@@ -11,6 +11,7 @@ import scipy.linalg.lapack
 import scipy.sparse as sp
 
 from signorini.arrays import Array, IntArray
+from signorini.sparse_rows import seen_by
 
 _DEPENDENT = 1e-10  # of the largest: what is left of a row that follows from the others, squared
 
@@ -41,7 +42,7 @@ class Ties:
         ----------
         residual : (z,) what the other forces leave of equilibrium, ``f + B^T r - K z``
         """
-        return -self.shares(self.B @ residual)
+        return -self.shares(seen_by(self.B, residual))
 
     def bear(self, forces: Array, residual: Array) -> Array:
         """What forces of the ties leave of equilibrium, (z,).

@@ -196,7 +196,7 @@ class InterfaceSystem:
         """(z,) Free displacements under a load at factor 1 while what is kept of the bodies is held, kept."""
         if name not in self._inside:
             reduced = self.condensed.reduce(self.prepared.constraints.on_free(self.unit(name).forces))
-            self._inside[name] = reduced.expand(np.zeros(self.condensed.factorisation.m))
+            self._inside[name] = np.asarray(reduced.expand(np.zeros(self.condensed.factorisation.m)))
         return self._inside[name]
 
     def free(self, b: Array) -> Array:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -223,20 +223,24 @@ class BodiesOnRanks(IteratedPairs):
 
 
 def make_bodies_on_ranks(
-    rows: RowsOnRanks, points: Array, B: sp.csr_array, interface: Interface, candidates: BoolArray
+    rows: RowsOnRanks,
+    places_of: Callable[[IntArray], Array],
+    B: sp.csr_array,
+    interface: Interface,
+    candidates: BoolArray,
 ) -> BodiesOnRanks:
     """Put pairs on bodies that are on all ranks.
 
     Parameters
     ----------
     rows : the bodies
-    points : (nodes, d) of the mesh, length
+    places_of : (k, d) where nodes (k,) are, length
     B : (d n, z) relative displacements of the pairs in terms of the free displacements
     interface : the pairs
     candidates : (n,) pairs that may touch
     """
     chosen = chosen_pairs(B, interface, candidates)
-    held = PairsHeld(rows, chosen.B, points[interface.node[chosen.pairs]])
+    held = PairsHeld(rows, chosen.B, places_of(interface.node[chosen.pairs]))
     felt = np.empty(len(held.owner))
     felt[np.argsort(held.owner, kind="stable")] = np.concatenate(held.felt)
     data = chosen.data(interface, with_supple(felt, interface, chosen.pairs))

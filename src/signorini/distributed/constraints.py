@@ -4,21 +4,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray, distinct
+from signorini.arrays import Array, IntArray, distinct, stored
 from signorini.distributed.bodies import RowsOnRanks
+from signorini.distributed.columns import ColumnsOnRanks
+from signorini.distributed.kept_rows import put_away
 from signorini.distributed.multigrid import matrix
 from signorini.distributed.rank_arrays import ArrayOnRanks, Cut, Remembered
 from signorini.distributed.ranks import Team
 from signorini.fem.rigid_motions import RigidMotions
 from signorini.fem.supports import Constraints, Motions, transform_of
-from signorini.sparse_rows import chosen_rows, transposed
+from signorini.sparse_rows import chosen_columns, chosen_rows, seen_by, transposed
+
+_FOLLOWS = -2  # in place of a free displacement: what dependent dofs have in `Constraints.free`
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -69,7 +73,7 @@ class ConstraintsOnRanks(Constraints):
     @property
     def zeros(self) -> Any:
         """(dofs,) Zeros, on the ranks."""
-        return self.spread(np.zeros(0, np.int64), np.zeros(0))
+        return self.rows.stiffness.vectors.zeros
 
     def placed(self, values: Any) -> Any:
         """Values (dofs,), which nobody changes, on the ranks."""
@@ -112,6 +116,19 @@ class ConstraintsOnRanks(Constraints):
             return super().free_of(displacement)
         return self.rows.unknowns.made(_free_of, self.rows.stiffness.vectors.of(displacement), self.moved.number)
 
+    def in_free(self, rows: sp.csr_array) -> sp.csr_array:
+        """(k, z) Rows (k, dofs) in terms of the free displacements: of these, only what rows see is asked for."""
+        if len(self.dependent):
+            return super().in_free(rows)
+        seen = distinct(rows.indices)
+        transform = transform_of(self.free[seen], self.rows.unknowns.size, self.dependent, self.shares)
+        return sp.csr_array(chosen_columns(rows, seen) @ transform)
+
+    def of_free(self, motions: Array) -> Any:
+        """(z, k) The free displacements in motions (dofs, k), on the ranks."""
+        cut = self.rows.stiffness.vectors
+        return ColumnsOnRanks(self.rows.unknowns, [self.free_of(cut.of(motion)) for motion in motions.T])
+
     def resultants(self, rigid: Motions, forces: Any) -> Array:
         """(k,) Work of forces (dofs,) on k rigid motions."""
         if not isinstance(forces, ArrayOnRanks) or rigid is not self.moved.rigid:
@@ -121,7 +138,20 @@ class ConstraintsOnRanks(Constraints):
 
     def handed_on(self, forces: Any) -> Any:
         """Forces on all dofs (dofs,), those on dependent ones given to the dofs that they follow from."""
-        return super().handed_on(np.asarray(forces) if len(self.dependent) else forces)
+        if not len(self.dependent) or not isinstance(forces, ArrayOnRanks):
+            return super().handed_on(forces)
+        seen = distinct(self.shares.indices)
+        handed = chosen_columns(self.shares, seen).T @ forces[self.dependent]
+        return np.where(self.free == _FOLLOWS, 0.0, forces) + self.spread(seen, handed)
+
+    def completed(self, displacement: Any) -> Any:
+        """Displacements of all dofs (dofs,), those of dependent ones as they follow from the others."""
+        if not isinstance(displacement, ArrayOnRanks):
+            return super().completed(displacement)
+        if not len(self.dependent):
+            return displacement
+        given = self.spread(self.dependent, seen_by(self.shares, displacement))
+        return np.where(self.free == _FOLLOWS, given, displacement)
 
     def foundation_forces(self, displacement: Any) -> Any:
         """Forces of all elastic foundations on the bodies, (dofs,)."""
@@ -131,6 +161,28 @@ class ConstraintsOnRanks(Constraints):
         near = displacement[seen]
         springs = [S[:, seen] for S in self.springs.values()]
         return self.spread(seen, sum((-(S.T @ (S @ near)) for S in springs), np.zeros(len(seen))))
+
+
+def kept_away(constraints: Constraints, vectors: Cut) -> Constraints:
+    """Constraints under which nothing is solved now, with arrays on the ranks: whoever asks is given all of them.
+
+    Parameters
+    ----------
+    constraints : what supports hold
+    vectors : the displacements of every rank
+    """
+    if not isinstance(stored(constraints, "transform"), sp.csr_array):
+        return constraints
+    free = vectors.of(constraints.free)
+    count, few = constraints.transform.shape[1], (constraints.dependent, constraints.shares)
+    return replace(
+        constraints,
+        free=free,  # type: ignore[arg-type]
+        transform=_TransformMade(free, count, *few),
+        prescribed={name: vectors.of(u) for name, u in constraints.prescribed.items()},  # type: ignore[misc]
+        owner=vectors.of(constraints.owner),  # type: ignore[arg-type]
+        nodes=put_away(constraints.nodes),
+    )
 
 
 class _TransformMade:

@@ -5,26 +5,34 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct
 from signorini.distributed.bodies import RowsOnRanks
+from signorini.distributed.constraints import ConstraintsOnRanks
 from signorini.distributed.factors import (
     AskedOfFactors,
     FactorsMade,
+    arbitrary_load,
     diagonal_of,
     hold_factors,
     rows_of,
     solve_factors,
+    solved_there,
 )
+from signorini.distributed.rank_arrays import ArrayOnRanks
 from signorini.distributed.ranks import MUMPS
 from signorini.errors import InputError
 from signorini.linalg.definite import ROUNDOFF
 from signorini.linalg.protocol import NotPositiveDefinite, Reduced
 from signorini.linalg.system import as_columns, like
+from signorini.sparse_rows import chosen_columns, chosen_rows
 
 _SINGULAR = (-10, -40)  # values of INFOG(1)
 _NO_MEMORY = (-7, -8, -9, -11, -13, -14, -15, -17, -19, -20)  # values of INFOG(1)
@@ -37,23 +45,26 @@ class MatrixOnRanks:
 
     Attributes
     ----------
-    on_ranks : the bodies
-    transform : (dofs, z) displacements of the free ones
-    springs : (z,) on the diagonal, beside the bodies
+    constraints : what supports hold of the bodies
+    springs : (z,) on the diagonal, beside the bodies, on the ranks
     border : (m, z) rows B of the border
     """
 
-    on_ranks: RowsOnRanks
-    transform: sp.csr_array
-    springs: Array
+    constraints: ConstraintsOnRanks
+    springs: ArrayOnRanks
     border: sp.csr_array
 
     @staticmethod
-    def of(on_ranks: RowsOnRanks, transform: sp.csr_array) -> MatrixOnRanks:
-        """The bodies without springs or border; ``transform`` as above."""
-        z = len(on_ranks.blocks.place)
-        none = sp.csr_array((0, z))
-        return MatrixOnRanks(on_ranks=on_ranks, transform=transform, springs=np.zeros(z), border=none)
+    def of(constraints: ConstraintsOnRanks) -> MatrixOnRanks:
+        """The bodies without springs or border; ``constraints`` as above."""
+        unknowns = constraints.rows.unknowns
+        none = sp.csr_array((0, unknowns.size))
+        return MatrixOnRanks(constraints=constraints, springs=unknowns.zeros, border=none)
+
+    @property
+    def on_ranks(self) -> RowsOnRanks:
+        """The bodies."""
+        return self.constraints.rows
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -68,8 +79,13 @@ class MatrixOnRanks:
 
     def diagonal(self) -> Array:
         """(n,) Its diagonal."""
-        found = self.on_ranks.team.everywhere(diagonal_of, self.on_ranks.number)
-        return np.concatenate([self.together(found) + self.springs, np.zeros(self.border.shape[0])])
+        return np.concatenate([self.on_free.whole(), np.zeros(self.border.shape[0])])
+
+    @property
+    def on_free(self) -> ArrayOnRanks:
+        """(z,) The diagonal without the border, on the ranks."""
+        found: ArrayOnRanks = self.on_ranks.unknowns.made(diagonal_of, self.on_ranks.number) + self.springs
+        return found
 
     def rows(self, wanted: IntArray) -> sp.csr_array:
         """(z, z) Some rows of the bodies, see `MatrixElsewhere.rows`.
@@ -87,14 +103,15 @@ class MatrixOnRanks:
         free[place] = np.arange(z)
         entries = sp.vstack(found, format="coo")
         i, j = order[entries.row], free[entries.col]
-        return sp.csr_array((entries.data + np.where(i == j, self.springs[i], 0.0), (i, j)), shape=(z, z))
+        springs = self.springs[order][entries.row]
+        return sp.csr_array((entries.data + np.where(i == j, springs, 0.0), (i, j)), shape=(z, z))
 
-    def stiffened(self, springs: Array) -> MatrixOnRanks:
+    def stiffened(self, springs: Any) -> MatrixOnRanks:
         """This matrix with more on its diagonal.
 
         Parameters
         ----------
-        springs : (z,) what is added
+        springs : (z,) what is added, here or on the ranks
         """
         return replace(self, springs=self.springs + springs)
 
@@ -126,14 +143,15 @@ class MatrixOnRanks:
         edge = np.asarray(interface, dtype=np.int64)
         held = FactorsHeld(self, edge)
         if not held.definite:
-            motion = FactorsHeld(self.stiffened(_HELD_TO_LOOK * self.diagonal()[: len(self.springs)]), edge)
+            motion = FactorsHeld(self.stiffened(_HELD_TO_LOOK * self.on_free), edge)
             raise NotPositiveDefinite(int(np.argmax(np.abs(motion.solved(motion.arbitrary)))))
         held.refuse_free_motions()
         if self.border.shape[0]:
             return FactorsOnRanks(held=held, interface=edge, coupling=self.border)
-        inside = sp.diags_array(held.inside.astype(np.float64))
-        coupling = self.rows(edge)[edge] @ inside
-        return FactorsOnRanks(held=held, interface=edge, coupling=sp.csr_array(coupling))
+        coupling = chosen_rows(self.rows(edge), edge)
+        coupling.data[np.isin(coupling.indices, edge)] = 0.0
+        coupling.eliminate_zeros()
+        return FactorsOnRanks(held=held, interface=edge, coupling=coupling)
 
     def parts(self, values: Array) -> Iterator[Array]:
         """Values (z, ...) on the unknowns of every rank.
@@ -161,7 +179,8 @@ class FactorsHeld:
     Attributes
     ----------
     matrix : what is factorised
-    inside : (z,) free displacements that are eliminated
+    edge : (k,) free displacements that are not eliminated
+    inside : (z,) whether one is, on the ranks
     made : how it ended on the first rank
 
     Parameters
@@ -180,11 +199,12 @@ class FactorsHeld:
     def __init__(self, matrix: MatrixOnRanks, edge: IntArray) -> None:
         self.matrix, team = matrix, matrix.on_ranks.team
         self._number, blocks, z = team.kept(self), matrix.on_ranks.blocks, len(matrix.springs)
-        self.inside = np.ones(z, dtype=np.bool_)
-        self.inside[edge[edge < z]] = False
+        self.edge = edge[edge < z]
+        self.inside = matrix.on_ranks.unknowns.spread(self.edge, np.ones(len(self.edge))) == 0.0
         place = np.concatenate([blocks.place, blocks.size * blocks.count + np.arange(matrix.border.shape[0])])
         pieces = self._asked(place[edge])
-        made = team.everywhere(hold_factors, matrix.on_ranks.number, self._number, pieces=pieces)
+        numbers = matrix.on_ranks.number, matrix.springs.number, self._number
+        made = team.everywhere(hold_factors, *numbers, pieces=pieces)
         self.made: FactorsMade = made[0]
         what = f"back end '{MUMPS}', for the factor of {z} unknowns and dense matrices of {len(edge)} of the contacts,"
         self.made.room.refuse(what)
@@ -199,9 +219,8 @@ class FactorsHeld:
     def _asked(self, interface: IntArray) -> Iterator[AskedOfFactors]:
         on, none = self.matrix.on_ranks, np.zeros(0, dtype=np.int64)
         columns = sp.csr_array(on.blocks.columns(self.matrix.border).T)
-        for rank, springs in enumerate(self.matrix.parts(self.matrix.springs)):
-            border = columns[on.ends[rank] : on.ends[rank + 1]]
-            yield AskedOfFactors(springs=springs, border=border, interface=none if rank else interface)
+        for rank, (first, last) in enumerate(pairwise(on.ends)):
+            yield AskedOfFactors(springs=np.zeros(0), border=columns[first:last], interface=none if rank else interface)
 
     @property
     def definite(self) -> bool:
@@ -209,11 +228,10 @@ class FactorsHeld:
         return self.made.status >= 0 and self.made.negative == 0
 
     @property
-    def arbitrary(self) -> Array:
+    def arbitrary(self) -> Any:
         """(z,) A load on what is eliminated that no motion is orthogonal to, of the size of the diagonal."""
-        random, diagonal = np.random.default_rng(0), self.matrix.diagonal()[: len(self.inside)]
-        size = np.sqrt(np.abs(diagonal)) * random.uniform(0.5, 1.5, len(diagonal))
-        return np.where(self.inside, size * random.choice([-1.0, 1.0], len(diagonal)), 0.0)
+        load = self.matrix.on_ranks.unknowns.made(arbitrary_load, self.matrix.on_free)
+        return np.where(self.inside, load, 0.0)
 
     def refuse_free_motions(self) -> None:
         """Refuse an interior one of whose motions has no energy but rounding, see `signorini.linalg.definite`.
@@ -229,22 +247,27 @@ class FactorsHeld:
         x = self.solved(load)
         if not np.isfinite(x).all():
             raise NotPositiveDefinite(int(np.argmin(np.isfinite(x))))
-        u = self.matrix.transform @ x
+        u = self.matrix.constraints.displaced(x)
         size = float(np.abs(u) @ (abs(self.matrix.on_ranks.stiffness) @ u) + self.matrix.springs @ x**2)
         if float(x @ load) <= ROUNDOFF * size:
             raise NotPositiveDefinite(int(np.argmax(np.abs(x))))
 
-    def solved(self, f: Array) -> Array:
+    def solved(self, f: Any) -> Any:
         """Displacements (z, ...) under forces (z, ...) on what is eliminated, nothing else moves.
 
         Parameters
         ----------
-        f : the forces
+        f : the forces, here, or (z,) on the ranks, where displacements are then
         """
-        team, columns = self.matrix.on_ranks.team, as_columns(f, len(self.inside))
-        inner = np.where(self.inside[:, None], columns, 0.0)
-        found = team.everywhere(solve_factors, self._number, pieces=self.matrix.parts(inner))
-        return like(f, np.where(self.inside[:, None], self.matrix.together(found), 0.0))
+        if isinstance(f, ArrayOnRanks):
+            unknowns, bodies = self.matrix.on_ranks.unknowns, self.matrix.on_ranks.number
+            there = unknowns.made(solved_there, np.where(self.inside, f, 0.0), bodies, self._number)
+            return np.where(self.inside, there, 0.0)
+        team, columns = self.matrix.on_ranks.team, as_columns(f, len(self.inside)).copy()
+        columns[self.edge] = 0.0
+        found = self.matrix.together(team.everywhere(solve_factors, self._number, pieces=self.matrix.parts(columns)))
+        found[self.edge] = 0.0
+        return like(f, found)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -285,8 +308,13 @@ class FactorsOnRanks:
         self.held.made = self.held.made._replace(condensed=None)
         return S, self
 
-    def reduce(self, f: Array) -> Reduced:
-        """Eliminate the interior of a load f, (n,) or (n, k), by one solve; to expand takes another."""
+    def reduce(self, f: Any) -> Reduced:
+        """Eliminate the interior of a load f, (n,) or (n, k), by one solve; to expand takes another.
+
+        One of the free displacements alone (z,) may be on the ranks, and so is then what is expanded.
+        """
+        if isinstance(f, ArrayOnRanks):
+            return self._reduced_there(f)
         z, load = len(self.held.inside), as_columns(f, self.n)
         u = self.held.solved(load[:z])
 
@@ -297,3 +325,20 @@ class FactorsOnRanks:
             return like(f, result)
 
         return Reduced(like(f, load[self.interface] - self.coupling @ u), expand)
+
+    @cached_property
+    def _near(self) -> tuple[IntArray, sp.csr_array]:
+        """(k,) What is eliminated that the interface feels, ascending, and its columns (m, k) of the coupling."""
+        seen = distinct(self.coupling.indices)
+        return seen, chosen_columns(self.coupling, seen)
+
+    def _reduced_there(self, f: ArrayOnRanks) -> Reduced:
+        """A load on the ranks: what the interface feels and holds comes here, and goes there, and nothing else."""
+        unknowns, (seen, coupling), edge = self.held.matrix.on_ranks.unknowns, self._near, self.held.edge
+        u = self.held.solved(unknowns.of(f))
+
+        def expand(kept: Array) -> Any:
+            inner = u - self.held.solved(unknowns.spread(seen, coupling.T @ kept))
+            return inner + unknowns.spread(edge, kept) if len(edge) else inner
+
+        return Reduced((f[edge] if len(edge) else 0.0) - coupling @ u[seen], expand)

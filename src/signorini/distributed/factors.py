@@ -52,7 +52,7 @@ class AskedOfFactors(NamedTuple):
 
     Attributes
     ----------
-    springs : (own,) on the diagonal
+    springs : (own,) on the diagonal; they are there, and filled in there
     border : (own, m) columns of the border
     interface : (k,) unknowns that are not eliminated, on the first rank; none on the others
     """
@@ -270,15 +270,17 @@ def _petsc(name: str, *given: Any) -> None:
         raise PETSc.Error(failed)
 
 
-def hold_factors(team: Team, asked: AskedOfFactors, bodies: int, number: int) -> FactorsMade:
+def hold_factors(team: Team, asked: AskedOfFactors, bodies: int, springs: int, number: int) -> FactorsMade:
     """Factorise the bodies with all other ranks, and keep the factors.
 
     Parameters
     ----------
     team, asked : the ranks and what this one adds
-    bodies, number : under which bodies are held, and the factors will be
+    bodies, springs, number : under which bodies and springs are held, and the factors will be
     """
-    factors = team.held[number] = OwnFactors(team, team.held[bodies], asked)
+    own: OwnBodies = team.held[bodies]
+    asked = asked._replace(springs=own.padded(team.held[springs]))
+    factors = team.held[number] = OwnFactors(team, own, asked)
     return factors.made()
 
 
@@ -294,15 +296,40 @@ def solve_factors(team: Team, f: Array, number: int) -> Array:
     return found.solved(f)
 
 
+def solved_there(team: Team, free: Array, bodies: int, number: int) -> Array:
+    """Free displacements of this rank under forces on them, see `OwnFactors.solved`.
+
+    Parameters
+    ----------
+    team, free : the ranks, and forces on the free displacements of this one
+    bodies, number : under which bodies and factors are held
+    """
+    own: OwnBodies = team.held[bodies]
+    return solve_factors(team, own.padded(free)[:, None], number)[own.at, 0]
+
+
+def arbitrary_load(team: Team, diagonal: Array) -> Array:
+    """A load that no motion is orthogonal to, of the size of the diagonal; another on every rank.
+
+    Parameters
+    ----------
+    team, diagonal : the ranks, and the diagonal of the free displacements of this one
+    """
+    random = np.random.default_rng(team.rank)
+    size = np.sqrt(np.abs(diagonal)) * random.uniform(0.5, 1.5, len(diagonal))
+    load: Array = size * random.choice([-1.0, 1.0], len(diagonal))
+    return load
+
+
 def diagonal_of(team: Team, number: int) -> Array:
-    """(own,) The diagonal of the bodies.
+    """The diagonal of the bodies, of the free displacements of this rank.
 
     Parameters
     ----------
     team, number : the ranks, and under which the bodies are held
     """
     bodies: OwnBodies = team.held[number]
-    return np.array(bodies.K.getDiagonal().array)
+    return np.array(bodies.K.getDiagonal().array[bodies.at])
 
 
 def rows_of(team: Team, wanted: IntArray, number: int) -> sp.csr_array:

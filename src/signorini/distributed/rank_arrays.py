@@ -61,6 +61,11 @@ class Cut:
         self.team.everywhere(keep, found.number, pieces=(values[own] for own in self.entries()))
         return found
 
+    @property
+    def zeros(self) -> ArrayOnRanks:
+        """(size,) Zeros."""
+        return self.made(_zeros, self.number)
+
     def spread(self, numbers: IntArray, values: Array) -> ArrayOnRanks:
         """Values (k,) at some entries (k,), zero elsewhere."""
         found, ranks = ArrayOnRanks(self, np.dtype(np.float64)), self.rank_of(numbers)
@@ -184,8 +189,10 @@ class ArrayOnRanks(NDArrayOperatorsMixin):
         return self.cut.made(_entrywise, ufunc, *given, dtype=_type_of(ufunc, given))
 
     def __array_function__(self, func: Any, kinds: Any, given: Any, keywords: Any) -> Any:
-        """Choices between arrays on the ranks; anything else of all of it."""
+        """Choices between arrays on the ranks, and zeros there; anything else of all of it."""
         del kinds
+        if func is np.zeros_like and self._home is None:
+            return self.cut.zeros
         if func is np.where and len(given) == 3 and self._goes_with(given):
             there = self._there(given)
             return self.cut.made(_entrywise, func, *there, dtype=_type_of(func, there))
@@ -273,6 +280,10 @@ def _made(team: Team, number: int, work: Callable[..., Any], given: tuple[Any, .
 def _entrywise(team: Team, work: Callable[..., Any], *given: Any) -> Any:
     del team
     return work(*given)
+
+
+def _zeros(team: Team, entries: int) -> Array:
+    return np.zeros(len(team.held[entries]))
 
 
 def _spread(team: Team, piece: tuple[IntArray, Array], entries: int, number: int) -> None:

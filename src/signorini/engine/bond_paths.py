@@ -105,7 +105,7 @@ def _along(
 ) -> tuple[BondsPath, _Watch]:
     """A part as far as bonds stay on their lines; the arguments as of `follow_bonds`."""
     posed = found.posed
-    end = replace(part.end, pull=posed.moved_on(found.pull))
+    end = part.end.changed(pull=posed.moved_on(found.pull))
     start, b = path_state(posed.prepared, posed.state), right_hand_side(posed.prepared, end)
     watch = _Watch.of(found)
     settings = stops or PathSettings(solver=part.prepared.settings)
@@ -312,7 +312,7 @@ def _released(part: StepPart, breaking: BoolArray, sheared: BoolArray) -> tuple[
         if segment.followed:
             brittle = bonds_of(prepared, state)[0].opening == 0.0
             state = _recovered(found.posed, path, state, driven & brittle, sheared)
-            return gone, replace(state, point=replace(state.point, pull=_pull(prepared, state)))
+            return gone, replace(state, point=state.point.changed(pull=_pull(prepared, state)))
         factor, ends = watch.first(segment)
         landed = ends[2]
         if factor <= _AT_ONCE and not landed.any():
@@ -345,11 +345,11 @@ def _pull(prepared: Prepared, state: State) -> Array | None:
 def _recovered(posed: Posed, path: BondsPath, state: State, gone: BoolArray, sheared: BoolArray) -> State:
     """The state at the end of a part of a jump, with bonds that are gone for good, all of them or along the sides."""
     factor = path.segment.pieces[-1].factor
-    point = replace(state.point, pull=None)
+    point = state.point.changed(pull=None)
     assert path.part.end.pull is not None
     assert posed.state.point.pull is not None
     pull = (1.0 - factor) * posed.state.point.pull + factor * path.part.end.pull
-    now = recovered(posed.prepared, posed.state, replace(point, pull=pull), path.segment.end)
+    now = recovered(posed.prepared, posed.state, point.changed(pull=pull), path.segment.end)
     cohesion, bonds = bonds_of(posed.prepared, state)
     return replace(now, bonds=cohesion.after(bonds, now.gap, gone, sheared), work=state.work, released=state.released)
 

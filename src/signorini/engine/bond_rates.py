@@ -110,7 +110,7 @@ def pose(
     solver = prepared.solver.under(sticking, prepared.scale, np.zeros(len(held), np.bool_))
     return Posed(
         prepared=replace(prepared, interface=sticking, solver=solver),
-        state=replace(state, point=replace(state.point, pull=pull), status=status, gap=gap),
+        state=replace(state, point=state.point.changed(pull=pull), status=status, gap=gap),
         held=held,
         soft=soft,
         back=back,
@@ -162,7 +162,7 @@ def course(
         change = np.zeros_like(state.forces)
         change[:, driven] = -state.forces[:, driven]
         change[1:, sheared] = -state.forces[1:, sheared]
-        b = right_hand_side(posed.prepared, replace(end, pull=posed.moved_on(change)))
+        b = right_hand_side(posed.prepared, end.changed(pull=posed.moved_on(change)))
         rates = _rates(posed, start, b - start.b, codes)
         if rates is None:
             return BondCourse(posed=posed, pull=change, breaking=none)

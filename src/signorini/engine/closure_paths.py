@@ -109,7 +109,7 @@ def _first_lines(part: StepPart) -> Lines:
     interface = prepared.interface
     assert interface.closure is not None
     own = prepared.solver.active
-    if not state.forces.any() and not state.displacement.any() and (state.gap[own] < 0.0).any():
+    if not state.forces.any() and not state.nodal[0].any() and (state.gap[own] < 0.0).any():
         state = advance(prepared, state, state.point, part.where)[0]
     closure = interface.closure.after(part.before.borne)
     return Lines.at(closure, np.maximum(state.forces[0], 0.0) / interface.area)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import BoolArray
+from signorini.arrays import BoolArray, stored
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.kept import Kept
@@ -23,6 +23,7 @@ from signorini.fem.supports import Constraints
 from signorini.interface.active import FreeBodies
 from signorini.interface.sliding import sliding_unknowns
 from signorini.iterative.bodies import ITERATIVE
+from signorini.linalg.elsewhere import is_elsewhere
 from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.linalg.registry import BACKENDS
@@ -57,11 +58,13 @@ def refuse_unknown(backend: str, where: Where = ()) -> None:
 
 def free_bodies(examined: Examined, K: sp.csr_array) -> FreeBodies:
     """The bodies and their pairs in terms of the free displacements, K (z, z) their stiffness, here or elsewhere."""
-    space, constraints, T = examined.space, examined.constraints, examined.constraints.transform
-    bodies = FreeBodies(K, constraints.in_free(examined.interface.B), constraints.nodes, space.places)
+    space, constraints = examined.space, examined.constraints
+    # of bodies elsewhere nothing is asked but where nodes of pairs are
+    points = stored(space.mesh, "points") if is_elsewhere(K) else space.places
+    bodies = FreeBodies(K, constraints.in_free(examined.interface.B), constraints.nodes, points)
     if not examined.model.slides:
         return bodies
-    return bodies._replace(kept=sliding_unknowns(space, examined.model, examined.frames, T))
+    return bodies._replace(kept=sliding_unknowns(space, examined.model, examined.frames, constraints.transform))
 
 
 def condense_bodies(
@@ -88,7 +91,7 @@ def condense_bodies(
     InputError
         Where something moves without resistance, or contact hardly holds a body.
     """
-    rigid = (examined.motions @ examined.floating)[examined.constraints.leaders]
+    rigid = examined.constraints.of_free(examined.motions @ examined.floating)
     if not (examined.model.slides or examined.model.wears):  # neither looks for facets again
         examined.space.forget("facets")
     if bodies.K.nnz > _GIVEN_BACK_FROM:
@@ -177,7 +180,7 @@ def reduced_bodies(examined: Examined, K: Any) -> Any:
         return reduced_stiffness(K, examined.constraints.transform)
     from signorini.engine.solver_on_ranks import matrix_on_ranks  # needs PETSc
 
-    return matrix_on_ranks(examined, K)
+    return matrix_on_ranks(examined)
 
 
 def whole_stiffness(examined: Examined) -> sp.csr_array:
@@ -195,10 +198,10 @@ def softness(examined: Examined, condensed: Condensed) -> float:
     ----------
     examined, condensed : the model and its condensed bodies
     """
-    T, found = examined.constraints.transform, [0.0]
+    constraints, found = examined.constraints, [0.0]
     for forces in examined.loads.values():
         if size := float(np.abs(forces).sum()):
-            moved = T @ condensed.on_springs(examined.constraints.on_free(forces))
+            moved = constraints.displaced(condensed.on_springs(constraints.on_free(forces)))
             found.append(float(np.abs(moved).max(initial=0.0)) / size)
     return max(found)
 

@@ -47,7 +47,7 @@ def switched(prepared: Prepared, state: State, absent: BoolArray) -> State:
     # compliant interfaces let their energy go with the law
     soft = stored_energy(replace(prepared, absent=absent), state) - stored_energy(prepared, state)
     return state.changed(
-        point=replace(state.point, gap=state.point.gap + overlap, given=given),
+        point=state.point.changed(gap=state.point.gap + overlap, given=given),
         gap=state.gap + overlap,
         slip=np.where(on, 0.0, state.slip),
         status=np.where(off | on, OPEN, state.status),

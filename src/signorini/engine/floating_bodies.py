@@ -9,6 +9,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import Spent
+from signorini.engine.condensation import on_ranks
 from signorini.engine.increments import applied, certified, moving_away
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart
@@ -137,6 +138,8 @@ def _alike(prepared: Prepared, motions: Array) -> Array:
         np.repeat(volumes, space.components),
         _BARE_VOLUME * everything,
     )
+    if on_ranks(prepared.K):  # the first one lets go of what is as large as the mesh
+        space.forget("volumes", "used", "used_nodes")
     resisted = motions.T @ (transposed(prepared.motions) @ (weights[:, None] * (prepared.motions @ motions)))
     factor = np.linalg.cholesky(resisted / everything)
     return np.linalg.inv(factor).T
@@ -156,7 +159,7 @@ def _approach(part: StepPart, apart: BoolArray, motion: Array, loose: Array, rel
         state,
         point=state.point,
         loads=applied(prepared, state.point)[0],
-        displacement=state.displacement + prepared.motions @ motion,
+        displacement=state.nodal[0] + prepared.constraints.placed(prepared.motions @ motion),
         forces=np.where(apart, 0.0, state.forces),
         moved=np.concatenate([state.gap + relative[:1], relative[1:]]),
         status=np.where(apart, OPEN, state.status),
@@ -207,7 +210,7 @@ def resting(part: StepPart) -> StepPart:
             prepared,
             solver=prepared.solver.moving(ways, prepared.interface, prepared.scale),
             floating=prepared.floating @ ways,
-            resting=rigid @ place,
+            resting=prepared.constraints.placed(rigid @ place),
         ),
         awake=prepared,
         waiting=seen.reshape(-1, len(touches)).any(axis=0),

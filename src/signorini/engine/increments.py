@@ -234,9 +234,8 @@ def applied(prepared: Prepared, point: LoadPoint) -> tuple[Array, Array]:
     imposed = sum((point.factors[name] * placed(u) for name, u in prepared.constraints.prescribed.items()), zero)
     if len(prepared.resting):
         imposed = imposed + prepared.resting
-    if len(point.reaction):
-        return loads + placed(point.reaction), imposed + placed(point.offset)
-    return loads, imposed
+    reaction, offset = point.left
+    return (loads + placed(reaction), imposed + placed(offset)) if len(reaction) else (loads, imposed)
 
 
 def moved_by_supports(prepared: Prepared, imposed: Array) -> Array:

@@ -51,7 +51,7 @@ def path_state(prepared: Prepared, state: State) -> PathState:
     b, root, law = right_hand_side(prepared, state.point), condensed.root, paths.law
     h, slip = root * state.motion[:, active], root * state.slip[:, active]
     dissipation = state.dissipation[active]
-    if not state.forces.any() and not state.displacement.any() and (h[0] < 0.0).any():
+    if not state.forces.any() and not state.nodal[0].any() and (h[0] < 0.0).any():
         pressed = initial_state(law, b, settings=prepared.settings)
         return replace(pressed, slip=slip + pressed.slip, dissipation=dissipation + pressed.dissipation)
     forces = state.forces if state.point.pull is None else state.forces - state.point.pull
@@ -102,7 +102,7 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
     prepared, point, now : as of `on_the_way`
     last : the last state that was recovered
     """
-    condensed, interface, T = prepared.paths.condensed, prepared.interface, prepared.constraints.transform
+    condensed, interface, constraints = prepared.paths.condensed, prepared.interface, prepared.constraints
     active = condensed.active
     seen = on_the_way(prepared, last, point, now)
     (loads, imposed), offset = applied(prepared, point), prepared.paths.rested(offsets(prepared, point))
@@ -110,14 +110,14 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
     beside = point.given if point.pull is None else point.given + point.pull
     acting = (seen.forces - beside)[:, active]
     free = condensed.displacement(reduced, seen.motion[:, active], acting, offset[:, active])
-    displacement = T @ free + imposed
+    displacement = constraints.displaced(free) + imposed
     moved = np.where(active, seen.motion, offset + interface.motion(displacement - imposed))
     moved[1:] -= last.tangential
     forces, ties = seen.forces.copy(), condensed.ties
     given = loads + prepared.flowed if len(prepared.flowed) else loads
-    missing = given + interface.on_bodies(forces) - prepared.K @ displacement
     if ties is not None:
-        ties.bear(forces, prepared.constraints.on_free(missing))
+        missing = given + prepared.pushed(forces) - prepared.K @ displacement
+        ties.bear(forces, constraints.on_free(missing))
     after = next_state(
         prepared,
         last,

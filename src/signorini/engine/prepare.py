@@ -23,6 +23,7 @@ from signorini.engine.condensation import assembled, condense_bodies, free_bodie
 from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
 from signorini.engine.memory_check import way_through
 from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers, with_factors
+from signorini.engine.placing import placed
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.tangent_bodies import TangentBodies
@@ -349,17 +350,16 @@ def condensed_model(
     known : the bodies factorised with these candidates, where they were
     increments : that a factor serves, see `Prepared`
     """
-    interface, yields = examined.interface, examined.model.yields
-    data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
-    bent, condensed, plans = 0.0, known, Plans() if yields else None
-    reduced, way = None, CONDENSED
+    interface, yields, plans = examined.interface, examined.model.yields, Plans() if examined.model.yields else None
+    bent, condensed, reduced, way = 0.0, known, None, CONDENSED
     solver: CondensedSolver | MultiplierSolver
     with clock.phase("assembly"):
+        examined = placed(examined, K, known)
+        data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
         if backend == PETSC:
             from signorini.engine.solver_on_ranks import solver_on_ranks  # needs PETSc
 
-            solver, there = solver_on_ranks(examined, K, candidates, settings)
-            data |= there  # what is as large as the mesh
+            solver = solver_on_ranks(examined, candidates, settings)
         elif yields or known is None:
             reduced = reduced_bodies(examined, K)
     if reduced is not None and condensed is None:
@@ -390,7 +390,7 @@ def condensed_model(
         clock=clock,
         backend=backend,
         candidates=candidates,
-        posed=(data if backend == PETSC else vars(examined))["constraints"].prescribed,
+        posed=examined.constraints.prescribed,
         settings=settings,
         softness=bent,
         plans=plans,

@@ -325,7 +325,7 @@ def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[
         )
         behind.append(lightened(slipped, every=at_events, end=False, heated=heated, taped=taped))
         state = after
-    reaction, offset = state.point.reaction, state.point.offset
+    reaction, offset = state.point.left
     if len(offset):
         reaction, offset = at_the_end(prepared, stage, state.point)
     end = LoadPoint(

@@ -196,7 +196,7 @@ class CondensedSolver:
         """
         condensed, law, system, f = self.condensed, self.law, increment.system, increment.f
         offset, interface, scale = self.rested(increment.offset), system.interface, system.scale
-        own, T, ties = np.flatnonzero(condensed.active), system.constraints.transform, condensed.ties
+        own, constraints, ties = np.flatnonzero(condensed.active), system.constraints, condensed.ties
         forces, moved, free = np.zeros_like(offset), np.zeros_like(offset), np.zeros_like(f)
         residual, misfit, b, lost = f, offset[:, own], np.zeros(len(law.b)), 0.0
         start = self._start(increment)
@@ -215,11 +215,11 @@ class CondensedSolver:
                 free = free + condensed.displacement(
                     reduced, moved[:, own] - before[0], forces[:, own] - before[1], misfit
                 )
-                u = T @ free
+                u = constraints.displaced(free)
                 if ties is not None:
                     ties.give(forces, 0.0)
                 internal = internal_forces(system.K, u) if step else system.K @ u
-                residual = f + system.constraints.on_free(interface.on_bodies(forces) - internal)
+                residual = f + constraints.on_free(system.pushed(forces) - internal)
                 residual = residual if ties is None else ties.bear(forces, residual)
                 misfit = (offset + interface.motion(u) - moved)[:, own] + condensed.compliance * forces[:, own]
                 misfit[1:][law.locked] = 0.0

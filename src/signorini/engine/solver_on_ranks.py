@@ -6,12 +6,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import scipy.sparse as sp
 
 from signorini.arrays import BoolArray, among
+from signorini.condense.condensed import Condensed
 from signorini.distributed.bodies import RowsOnRanks, make_bodies_on_ranks
-from signorini.distributed.constraints import ConstraintsOnRanks
-from signorini.distributed.direct import MatrixOnRanks
+from signorini.distributed.constraints import ConstraintsOnRanks, kept_away
+from signorini.distributed.direct import FactorsOnRanks, MatrixOnRanks
 from signorini.distributed.mesh_rows import at_hand, let_go
 from signorini.distributed.ranks import MUMPS, PETSC, the_team
 from signorini.distributed.refusals import refuse_without_mumps
@@ -21,6 +21,7 @@ from signorini.engine.examine import Examined
 from signorini.engine.memory_check import likely_entries
 from signorini.engine.multipliers import MultiplierSolver
 from signorini.fem.kinematics import straining_groups
+from signorini.fem.supports import Constraints
 from signorini.settings import SolverSettings
 from signorini.solution.checkpoint import digest
 
@@ -77,56 +78,71 @@ def stiffness_on_ranks(examined: Examined, backend: str) -> tuple[StiffnessOnRan
     return StiffnessOnRanks(team, space, model, constraints, examined.interface), way
 
 
-def solver_on_ranks(
-    examined: Examined, K: StiffnessOnRanks, candidates: BoolArray, settings: SolverSettings
-) -> tuple[MultiplierSolver, dict[str, Any]]:
-    """The method of multipliers on bodies that are on all ranks, and what of the model stays there from now on.
+def kept_on_ranks(examined: Examined, K: StiffnessOnRanks, known: Condensed | None = None) -> dict[str, Any]:
+    """What of a model stays on the ranks from now on: all that is as large as the mesh, and the mesh if it was lent.
 
-    That is all that is as large as the mesh: supports, and what they prescribe, and loads. Rigid motions are made anew
-    where somebody asks for them.
+    That is supports, and what they prescribe, and loads. Rigid motions are made anew where somebody asks for them.
 
     Parameters
     ----------
     examined : the model
     K : its pieces on the ranks, which are cut anew where constraints ask for more
-    candidates : (n,) pairs that may touch
-    settings : limits of the rounds
+    known : the bodies factorised under these constraints, where they were
 
     Returns
     -------
-    The solver, and fields of `Examined`
+    Fields of `Examined`
     """
-    constraints, interface, space = examined.constraints, examined.interface, examined.space
-    known = constraints if isinstance(constraints, ConstraintsOnRanks) else None
-    with at_hand(space.mesh, space.blocks):
-        rows = _rows(examined, K) if known is None else known.rows
-        space.forget("facets", "facets_at_boundaries", "volumes", "used", "used_nodes")
-        B = sp.csr_array(interface.B @ constraints.transform)
-        bodies = make_bodies_on_ranks(rows, space.mesh.points, B, interface, candidates)
-        there = known or ConstraintsOnRanks.of(constraints, rows, examined.rigid)
+    constraints, space = examined.constraints, examined.space
+    there, always = _known(constraints, known), examined.always
+    if there is None:
+        with at_hand(space.mesh, space.blocks):
+            if not K.serves(constraints):
+                K.cut(constraints)
+            rows = RowsOnRanks(K, space, constraints, examined.rigid)
+            there = ConstraintsOnRanks.of(constraints, rows, examined.rigid)
+    space.forget("facets", "facets_at_boundaries", "volumes", "used", "used_nodes")
     examined.rigid.forget()
     digest(examined.model.mesh)  # checkpoints know the mesh by it
     let_go(space)
-    return MultiplierSolver(bodies=bodies, settings=settings), {
+    return {
         "constraints": there,
-        "always": there if examined.always is constraints else examined.always,
+        "always": there if always is constraints else kept_away(always, K.vectors),
         "loads": {name: K.vectors.of(forces) for name, forces in examined.loads.items()},
     }
 
 
-def matrix_on_ranks(examined: Examined, K: StiffnessOnRanks) -> MatrixOnRanks:
+def _known(constraints: Constraints, known: Condensed | None) -> ConstraintsOnRanks | None:
+    """Constraints that ranks have already; those that bodies were factorised under prescribe what is asked now."""
+    if isinstance(constraints, ConstraintsOnRanks) or known is None:
+        return constraints if isinstance(constraints, ConstraintsOnRanks) else None
+    assert isinstance(known.factorisation, FactorsOnRanks)
+    there = known.factorisation.held.matrix.constraints
+    return there.prescribing({name: there.placed(u) for name, u in constraints.prescribed.items()})
+
+
+def solver_on_ranks(examined: Examined, candidates: BoolArray, settings: SolverSettings) -> MultiplierSolver:
+    """The method of multipliers on bodies that are on all ranks.
+
+    Parameters
+    ----------
+    examined : the model, as it is kept there
+    candidates : (n,) pairs that may touch
+    settings : limits of the rounds
+    """
+    constraints, interface = examined.constraints, examined.interface
+    assert isinstance(constraints, ConstraintsOnRanks)
+    B, places = constraints.in_free(interface.B), examined.space.mesh.places_of
+    bodies = make_bodies_on_ranks(constraints.rows, places, B, interface, candidates)
+    return MultiplierSolver(bodies=bodies, settings=settings)
+
+
+def matrix_on_ranks(examined: Examined) -> MatrixOnRanks:
     """The stiffness of the free displacements on all ranks, for MUMPS to factorise.
 
     Parameters
     ----------
-    examined : the model
-    K : its pieces on the ranks, which are cut anew where constraints ask for more
+    examined : the model, as it is kept there
     """
-    return MatrixOnRanks.of(_rows(examined, K), examined.constraints.transform)
-
-
-def _rows(examined: Examined, K: StiffnessOnRanks) -> RowsOnRanks:
-    constraints = examined.constraints
-    if not K.serves(constraints):
-        K.cut(constraints)
-    return RowsOnRanks(K, examined.space, constraints, examined.rigid)
+    assert isinstance(examined.constraints, ConstraintsOnRanks)
+    return MatrixOnRanks.of(examined.constraints)

@@ -83,7 +83,7 @@ def straight_parts(
         t = high * count - j if what == "asked" else 1.0
         way = start.towards(end, high)
         factors = {name: (1.0 - t) * before.get(name, 0.0) + t * value for name, value in stage.ends[j].items()}
-        point = replace(way, factors=stage.ends[j] if t == 1.0 else factors)
+        point = way.changed(factors=stage.ends[j] if t == 1.0 else factors)
         finished = what == "segment" and (j + 1) % step.segments == 0
         yield (
             Interval(

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from signorini.arrays import Array
@@ -33,15 +31,13 @@ def handed_over(prepared: Prepared, before: Constraints, state: State) -> State:
     """
     now = prepared.constraints
     # at the end of a step nothing is left of what supports bore that it released
-    point = replace(state.point, reaction=np.zeros(0), offset=np.zeros(0))
-    loads, imposed = (np.asarray(part) for part in applied(prepared, point))
-    borne = np.asarray(before.support_forces(state.external - loads))
-    was, held = np.asarray(before.held), np.asarray(now.held)
-    reaction = np.where(was & ~held, borne, 0.0)
-    other = held & ((np.asarray(now.owner) != np.asarray(before.owner)) | ~was)
-    old = state.point.offset if len(state.point.offset) else np.zeros(len(imposed))
-    offset = np.where(other, state.displacement - imposed, np.where(held, old, 0.0))
-    return state.changed(point=replace(state.point, reaction=reaction, offset=completed(prepared, offset)))
+    point = state.point.changed(reaction=np.zeros(0), offset=np.zeros(0))
+    (loads, imposed), (u, external), (_, last) = applied(prepared, point), state.nodal, state.point.left
+    was, held = before.held, now.held
+    reaction = np.where(was & ~held, before.support_forces(external - loads), 0.0)
+    other = held & ((now.owner != before.owner) | ~was)
+    offset = np.where(other, u - imposed, np.where(held, last if len(last) else now.zeros, 0.0))
+    return state.changed(point=state.point.changed(reaction=reaction, offset=completed(prepared, offset)))
 
 
 def locks_bolts(model: Model, before: Standing, after: Standing) -> bool:
@@ -96,10 +92,11 @@ def at_the_end(prepared: Prepared, stage: Stage, point: LoadPoint) -> tuple[Arra
     point : of the load history at its beginning
     """
     labels = [support.label for support in prepared.model.supports]
-    restored = [labels.index(name) for name in stage.step.restore]
-    kept = np.where(np.isin(prepared.constraints.owner, restored), 0.0, point.offset)
-    kept[~np.asarray(prepared.constraints.held)] = 0.0
-    return np.zeros_like(point.reaction), completed(prepared, kept)
+    constraints, (reaction, offset) = prepared.constraints, point.left
+    kept = np.where(constraints.held, offset, 0.0)
+    for name in stage.step.restore:
+        kept = np.where(constraints.owner == labels.index(name), 0.0, kept)
+    return np.zeros_like(reaction), completed(prepared, kept)
 
 
 def completed(prepared: Prepared, offset: Array) -> Array:

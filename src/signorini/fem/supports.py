@@ -92,6 +92,10 @@ class Constraints:
         """(z,) The free displacements in some of all dofs (dofs,)."""
         return displacement[self.leaders]
 
+    def of_free(self, motions: Array) -> Array:
+        """(z, k) The free displacements in motions (dofs, k) of all dofs."""
+        return motions[self.leaders]
+
     def resultants(self, rigid: Motions, forces: Array) -> Array:
         """(k,) Work of forces (dofs,) on k rigid motions."""
         found: Array = transposed(rigid.matrix) @ forces
@@ -137,7 +141,7 @@ class Constraints:
 
     def completed(self, displacement: Array) -> Array:
         """Displacements of all dofs (dofs,), those of dependent ones as they follow from the others."""
-        completed = displacement.copy()
+        completed = np.array(displacement)
         completed[self.dependent] = self.shares @ displacement
         return completed
 

@@ -22,6 +22,7 @@ from signorini.solution.discrete_model import DiscreteModel
 from signorini.solution.wear_state import WearState
 
 
+@elsewhere("reaction", "offset")
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class LoadPoint(Short):
     """A point of the load history: everything that is imposed. Between two of them all of it changes linearly.
@@ -43,18 +44,29 @@ class LoadPoint(Short):
     offset: Array = field(default_factory=lambda: np.zeros(0))
     pull: Array | None = None
 
+    @property
+    def left(self) -> tuple[Any, Any]:
+        """(dofs,) Reaction and offset to be computed with, on ranks where they are there; empty where none ever was."""
+        return operand(self, "reaction"), operand(self, "offset")
+
+    def changed(self, **data: Any) -> LoadPoint:
+        """With other data; arrays that ranks have stay there."""
+        reaction, offset = self.left
+        return replace(self, **{"reaction": reaction, "offset": offset} | data)
+
     def towards(self, end: LoadPoint, t: float) -> LoadPoint:
         """The point at the part t of the way to another."""
         if t == 1.0:
             return end
+        (reaction, offset), (last, beyond) = self.left, end.left
         pull = None if self.pull is None or end.pull is None else (1.0 - t) * self.pull + t * end.pull
         factors = {name: (1.0 - t) * self.factors.get(name, 0.0) + t * value for name, value in end.factors.items()}
         return LoadPoint(
             factors=MappingProxyType(factors),
             gap=(1.0 - t) * self.gap + t * end.gap,
             given=(1.0 - t) * self.given + t * end.given,
-            reaction=(1.0 - t) * self.reaction + t * end.reaction,
-            offset=(1.0 - t) * self.offset + t * end.offset,
+            reaction=(1.0 - t) * reaction + t * last,
+            offset=(1.0 - t) * offset + t * beyond,
             pull=pull,
         )
 
