@@ -14,7 +14,7 @@ from signorini.condense.condensed import Condensed, condense
 from signorini.condense.kept import Kept
 from signorini.condense.ties import Ties
 from signorini.distributed.ranks import ON_RANKS
-from signorini.engine.examine import Examined
+from signorini.engine.examine import Examined, on_ranks
 from signorini.engine.memory_check import refuse_unassembled
 from signorini.errors import InputError, Where, one_of
 from signorini.fem.rigid import hinged
@@ -157,16 +157,6 @@ def assembled(examined: Examined, backend: str) -> tuple[Any, str]:
     refuse_unknown(backend)
     refuse_unassembled(examined.model)
     return whole_stiffness(examined), backend
-
-
-def on_ranks(K: Any) -> bool:
-    """Whether the rows of a stiffness are on the ranks of MPI.
-
-    Parameters
-    ----------
-    K : as it was assembled, see `assembled`
-    """
-    return not isinstance(K, sp.csr_array)
 
 
 def reduced_bodies(examined: Examined, K: Any) -> Any:

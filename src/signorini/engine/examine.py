@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -234,3 +235,13 @@ def floating_motions(rigid: RigidMotions, resisted: Array, interface: Interface)
     resisted, interface : what supports take of them, and the pairs with their ties
     """
     return free_motions(resisted, chosen_rows(interface.felt(rigid), interface.rows(interface.tied)))
+
+
+def on_ranks(K: Any) -> bool:
+    """Whether the rows of a stiffness are on the ranks of MPI.
+
+    Parameters
+    ----------
+    K : as it was assembled, see `condensation.assembled`
+    """
+    return not isinstance(K, sp.csr_array)

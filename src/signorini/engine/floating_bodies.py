@@ -9,7 +9,7 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import Spent
-from signorini.engine.condensation import on_ranks
+from signorini.engine.examine import on_ranks
 from signorini.engine.increments import applied, certified, moving_away
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart

@@ -20,10 +20,9 @@ from signorini.engine.bond_solver import with_laws
 from signorini.engine.candidate_pairs import candidate_pairs
 from signorini.engine.changed_model import changed_interface, changed_model, scaled
 from signorini.engine.condensation import assembled, condense_bodies, free_bodies, reduced_bodies, softness, with_ties
-from signorini.engine.examine import Examined, examine, floating_motions, refuse_free_motions
+from signorini.engine.examine import Examined, examine, floating_motions, on_ranks, refuse_free_motions
 from signorini.engine.memory_check import way_through
 from signorini.engine.multipliers import MAX_ENTRIES, PATIENCE, MultiplierSolver, make_multipliers, with_factors
-from signorini.engine.placing import placed
 from signorini.engine.plastic_solver import PlasticSolver
 from signorini.engine.solver import CondensedSolver, ContactSolver
 from signorini.engine.tangent_bodies import TangentBodies
@@ -354,11 +353,12 @@ def condensed_model(
     bent, condensed, reduced, way = 0.0, known, None, CONDENSED
     solver: CondensedSolver | MultiplierSolver
     with clock.phase("assembly"):
-        examined = placed(examined, K, known)
+        if on_ranks(K):
+            from signorini.engine.solver_on_ranks import kept_on_ranks, solver_on_ranks  # needs PETSc
+
+            examined = kept_on_ranks(examined, K, known)
         data = {field.name: getattr(examined, field.name) for field in fields(Examined)}
         if backend == PETSC:
-            from signorini.engine.solver_on_ranks import solver_on_ranks  # needs PETSc
-
             solver = solver_on_ranks(examined, candidates, settings)
         elif yields or known is None:
             reduced = reduced_bodies(examined, K)

@@ -12,9 +12,9 @@ import numpy as np
 from signorini.arrays import Array, IntArray, frozen
 from signorini.distributed.kept_rows import put_away
 from signorini.engine.bolts import bolt_results
-from signorini.engine.condensation import on_ranks
 from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.energy import interface_energy, stored_energy, thermal_energy
+from signorini.engine.examine import on_ranks
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.reactions import reactions, rigid_dofs, rigid_motions, rigid_result

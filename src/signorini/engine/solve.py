@@ -13,8 +13,8 @@ from signorini.arrays import Array
 from signorini.blas_threads import one_thread
 from signorini.clock import Clock
 from signorini.distributed.ranks import MUMPS, PETSC
-from signorini.engine.condensation import on_ranks
 from signorini.engine.contact_changes import pressed_gap, relaxed, staged, switched
+from signorini.engine.examine import on_ranks
 from signorini.engine.fatigue import with_fatigue
 from signorini.engine.increments import measured
 from signorini.engine.memory_check import refuse_fields

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import fields
 
 import numpy as np
 
@@ -78,8 +78,8 @@ def stiffness_on_ranks(examined: Examined, backend: str) -> tuple[StiffnessOnRan
     return StiffnessOnRanks(team, space, model, constraints, examined.interface), way
 
 
-def kept_on_ranks(examined: Examined, K: StiffnessOnRanks, known: Condensed | None = None) -> dict[str, Any]:
-    """What of a model stays on the ranks from now on: all that is as large as the mesh, and the mesh if it was lent.
+def kept_on_ranks(examined: Examined, K: StiffnessOnRanks, known: Condensed | None = None) -> Examined:
+    """A model of which all that is as large as the mesh stays on the ranks from now on, and the mesh if it was lent.
 
     That is supports, and what they prescribe, and loads. Rigid motions are made anew where somebody asks for them.
 
@@ -88,10 +88,6 @@ def kept_on_ranks(examined: Examined, K: StiffnessOnRanks, known: Condensed | No
     examined : the model
     K : its pieces on the ranks, which are cut anew where constraints ask for more
     known : the bodies factorised under these constraints, where they were
-
-    Returns
-    -------
-    Fields of `Examined`
     """
     constraints, space = examined.constraints, examined.space
     there, always = _known(constraints, known), examined.always
@@ -105,11 +101,11 @@ def kept_on_ranks(examined: Examined, K: StiffnessOnRanks, known: Condensed | No
     examined.rigid.forget()
     digest(examined.model.mesh)  # checkpoints know the mesh by it
     let_go(space)
-    return {
-        "constraints": there,
-        "always": there if always is constraints else kept_away(always, K.vectors),
-        "loads": {name: K.vectors.of(forces) for name, forces in examined.loads.items()},
-    }
+    data = {field.name: getattr(examined, field.name) for field in fields(Examined)}  # `examined` may be more than that
+    data["constraints"] = there
+    data["always"] = there if always is constraints else kept_away(always, K.vectors)
+    data["loads"] = {name: K.vectors.of(forces) for name, forces in examined.loads.items()}
+    return Examined(**data)
 
 
 def _known(constraints: Constraints, known: Condensed | None) -> ConstraintsOnRanks | None:
