@@ -18,6 +18,9 @@ from signorini.arrays import Array, BoolArray, IntArray, distinct
 _FEW_COLUMNS = 100
 """Columns of a matrix up to which it is multiplied as a table with all its zeros."""
 
+_FEW_ENTRIES = 6_000
+"""Entries up to which sorting them takes less than SciPy's constructor, which is four times as fast for 100,000."""
+
 _ROWS, _COLUMNS = (vars(kind((1, 1))) for kind in (sp.csr_array, sp.csc_array))
 
 
@@ -158,6 +161,8 @@ def of_entries(values: Array, rows: IntArray, columns: IntArray, shape: tuple[in
     >>> of_entries(np.array([1.0, 2.0]), np.array([1, 0]), np.array([0, 1]), (2, 2)).toarray().tolist()
     [[0.0, 2.0], [1.0, 0.0]]
     """
+    if len(values) > _FEW_ENTRIES:
+        return sp.csr_array((values, (rows, columns)), shape=shape)
     keys = rows.astype(np.int64) * shape[1] + columns
     order = np.argsort(keys, kind="stable")  # of what comes in runs as fast as any
     keys = keys[order]

@@ -93,6 +93,7 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
         (_kernels.add_quadrilaterals, (points, cells, laws, pattern, share)),
         (_kernels.unknown_pattern, (large, small, 2)),
         (_kernels.node_pattern, (large, small, 1)),
+        (_kernels.connected_pieces, (large, small, 1)),
     ]
 
 

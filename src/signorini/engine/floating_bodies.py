@@ -70,7 +70,8 @@ def approached(part: StepPart, *, relieving: bool = False) -> FollowedPart | Non
     moved = np.asarray(interface.felt(rigid) @ floating)
     rubs = presses & interface.friction.rubs
     basis = unfelt(moved[np.concatenate([presses, *[rubs] * (interface.directions - 1)])])
-    basis = basis @ _alike(prepared, floating @ basis)
+    if basis.shape[1] > 1:  # of one motion alone nothing depends on what resists it
+        basis = basis @ _alike(prepared, floating @ basis)
     P, gap = moved[interface.rows(apart)] @ basis, state.gap[apart]
     out = relieved(P[: len(gap)], gap, width=width) if overlaps else np.zeros(basis.shape[1])
     if out is None:  # overlaps press first

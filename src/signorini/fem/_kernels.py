@@ -12,6 +12,40 @@ from signorini.compilation import kernel, part
 from signorini.fem._element import combine, eliminate, gradients_at, project
 
 
+@part()
+def _first_known(ahead: Int32Array, node: int) -> int:
+    """The first node of the piece of a node as far as it is known; the way there is halved for those that ask again."""
+    while ahead[node] != node:
+        ahead[node] = ahead[ahead[node]]
+        node = ahead[node]
+    return node
+
+
+@kernel()
+def connected_pieces(start: IntArray, corner: Int32Array, nodes: int) -> Int32Array:
+    """Give the connected piece of each node, (nodes,), in the order of their first nodes.
+
+    Parameters
+    ----------
+    start, corner, nodes : see `node_pattern`
+    """
+    ahead = np.arange(nodes).astype(np.int32)  # a node of the same piece, never a later one
+    for e in range(len(start) - 1):
+        one = _first_known(ahead, corner[start[e]])
+        for p in range(start[e] + 1, start[e + 1]):
+            other = _first_known(ahead, corner[p])
+            one, other = min(one, other), max(one, other)
+            ahead[other] = one
+    found, count = np.empty(nodes, np.int32), 0
+    for i in range(nodes):
+        if ahead[i] == i:
+            found[i] = count
+            count += 1
+        else:
+            found[i] = found[ahead[i]]
+    return found
+
+
 @kernel()
 def node_pattern(start: IntArray, corner: Int32Array, nodes: int) -> tuple[IntArray, Int32Array]:
     """Give the sorted rows of the graph that joins all nodes of an element; a node is its own neighbour.

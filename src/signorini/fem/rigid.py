@@ -12,10 +12,11 @@ from scipy.sparse.csgraph import connected_components
 
 from signorini.arrays import Array, BoolArray, IntArray, among, extent, index_type
 from signorini.dense import symmetric_eigen
+from signorini.fem._kernels import connected_pieces
 from signorini.fem.obstacles import arm
 from signorini.fem.space import Space
 from signorini.model.model import Model
-from signorini.sparse_rows import gram, rows_of
+from signorini.sparse_rows import gram
 
 _HELD_LEAST = 1e-12  # of the largest eigenvalue of the Gram matrix of the motions: below it a motion is not held
 _REST_TOL = 1e-10  # of the largest coefficient of a motion: what eigenvectors leave to parts that are at rest
@@ -108,12 +109,9 @@ def _freedom(model: Model) -> dict[str, Any]:
 def _pieces(space: Space, model: Model) -> list[ConnectedBody]:
     """Pieces of the mesh."""
     points, count = space.mesh.points, len(space.mesh.points)
-    # from cells, which are vertices behind the nodes, to their nodes: rows that need no sorting
-    members = np.concatenate([block.cells.ravel() for block in space.blocks]).astype(np.int32)
     sizes = np.repeat([block.cells.shape[1] for block in space.blocks], [len(block.cells) for block in space.blocks])
-    start = np.concatenate([np.zeros(count + 1, np.int32), np.cumsum(sizes, dtype=np.int32)])
-    graph = rows_of(np.ones(len(members)), members, start, (len(start) - 1,) * 2)
-    piece = connected_components(graph, connection="weak")[1][:count]
+    corner = np.concatenate([block.cells.ravel() for block in space.blocks]).astype(np.int32)
+    piece = connected_pieces(np.append(0, np.cumsum(sizes)), corner, count)
     number, owner = int(piece.max()) + 1, model.body_of_cells()
     pieces_of = [
         among([piece[b.cells[owner[b.first : b.first + len(b.cells)] == i, 0]] for b in space.blocks], number)
@@ -123,7 +121,8 @@ def _pieces(space: Space, model: Model) -> list[ConnectedBody]:
     for i in np.flatnonzero(among([piece[space.used_nodes]], number)):
         nodes = np.nonzero(piece == i)[0].astype(index_type(space.number_of_dofs))
         names = tuple(body.name for body, own in zip(model.bodies, pieces_of, strict=True) if own[i])
-        centre, size = points[nodes].mean(axis=0), float(np.linalg.norm(extent(points[nodes])) / 2.0)
+        at = points[nodes]
+        centre, size = at.mean(axis=0), float(np.linalg.norm(extent(at)) / 2.0)
         parts.append(ConnectedBody(bodies=names, nodes=nodes, centre=centre, size=size, **_freedom(model)))
     return parts
 

@@ -133,7 +133,7 @@ class Constraints:
         """(dofs,) Whether a support, the axis or nothing at all holds the dof."""
         return np.asarray(self.free == -1)
 
-    @property
+    @cached_property
     def alone(self) -> BoolArray:
         """(dofs,) Free displacements that no other dof follows."""
         count = np.bincount(self.transform.indices, minlength=self.transform.shape[1])
