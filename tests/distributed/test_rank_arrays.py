@@ -5,6 +5,7 @@ import json
 
 import numpy as np
 import pytest
+import scipy.linalg
 import scipy.sparse as sp
 
 from signorini.arrays import ArrayElsewhere, elsewhere, operand
@@ -106,6 +107,14 @@ def test_columns_are_a_table(cut):
             np.testing.assert_allclose(there.T @ values, here.T @ x, rtol=1e-13)
     assert isinstance(np.zeros_like(a), ArrayElsewhere)
     assert not np.zeros_like(a).any()
+
+
+def test_rows_that_tell_columns_apart_are_far_apart(cut):
+    """Of a shift and a turn, by pivots of an orthonormal basis: both ends, where the turn moves most."""
+    turn = np.linspace(-1.0, 2.0, SIZE)
+    found = ColumnsOnRanks(cut, [cut.of(np.ones(SIZE)), cut.of(turn)]).far_apart()
+    basis = scipy.linalg.qr(np.stack([np.ones(SIZE), turn], axis=1), mode="economic")[0]
+    assert set(found) == {0, SIZE - 1} == set(scipy.linalg.qr(basis.T, pivoting=True)[2][:2])
 
 
 def test_at_home_it_is_an_array(cut):

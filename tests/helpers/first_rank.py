@@ -8,14 +8,18 @@ the prepared model, the states and the history to them; what the first rank hold
 import gc
 import json
 import sys
+import traceback
 import types
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
 import signorini as sg
+from signorini.distributed.rank_arrays import ArrayOnRanks
 from signorini.distributed.ranks import Team, lend
 from signorini.engine import solve as following
+from signorini.engine import validity_notes
 from signorini.meshing.cut import cut
 from signorini.meshing.solid import box
 from signorini.model.obstacle import Plane
@@ -50,6 +54,19 @@ def bolted():
 MODELS = {
     "bolted column": bolted,
     "column": column,
+    "pushed far": lambda: column(supports=[sg.Support("top", u=(0, 0, -6.0))], steps=[sg.Step(increments=1)]),
+    "held by contact alone": lambda: column(
+        supports=[],
+        loads=[sg.Load("top", pressure=1e-4), sg.Load("bottom", traction=(1e-6, 0.0, 0.0), name="aside")],
+        steps=[
+            sg.Step(name="press", increments=1, scale={"top": 1.0}),
+            sg.Step(name="push", increments=1, scale={"aside": 1.0}),
+        ],
+    ),
+    "exact path": lambda: column(
+        contacts=[sg.Contact("bottom", Plane((0, 0, 0), (0, 0, 1)), friction=0.3, facets=8)],
+        steps=[sg.Step(path="exact")],
+    ),
     "supports that change": lambda: column(
         steps=[
             sg.Step(name="press", increments=1),
@@ -80,9 +97,30 @@ def large(roots, count):
     return sorted(found)
 
 
+def counted(found, count):
+    """Note who has all displacements, or forces on them, sent to the first rank from now on."""
+    whole, chosen = ArrayOnRanks.whole, ArrayOnRanks.__getitem__
+
+    def noted(array, entries):
+        if not array.home and array.dtype.kind == "f" and entries >= count:
+            frames = traceback.extract_stack()[:-2]
+            found.append([f"{Path(each.filename).stem}.{each.name}" for each in frames if "signorini" in each.filename])
+
+    def asked_whole(array):
+        noted(array, len(array))
+        return whole(array)
+
+    def asked_some(array, index):
+        noted(array, 0 if isinstance(index, slice) else np.size(index))
+        return chosen(array, index)
+
+    ArrayOnRanks.whole, ArrayOnRanks.__getitem__ = asked_whole, asked_some
+
+
 def main():
-    """Print the ways, step by step, and at the end."""
+    """Print the ways, step by step, and at the end; and who has asked for all displacements."""
     backend, name = sys.argv[1:]
+    validity_notes._AT_ONCE = 100  # nodes: the mesh is small
     found = {}
     told = following.step_result
 
@@ -97,7 +135,10 @@ def main():
         if first:
             model = MODELS[name]()
             lend(model.mesh)
+            asked = found["asked"] = []
+            counted(asked, model.mesh.number_of_nodes)
             history = following.solve(model, backend=backend)
+            found["asked"] = asked.copy()
             found["end"] = large({"model": model, "history": history}, model.mesh.number_of_nodes)
             print(json.dumps(found))
 

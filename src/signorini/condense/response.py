@@ -62,8 +62,7 @@ class Response(ABC):
     @property
     def motions(self) -> Array:
         """(d a, k) Rigid motions as the pairs see them."""
-        seen: Array = self.B @ self.rigid
-        return seen
+        return seen_by(self.B, self.rigid)
 
     @abstractmethod
     def reduce(self, f: Array) -> Reduced:
@@ -246,12 +245,12 @@ def held_by_springs(K: Any, rigid: Array, stiffness: float) -> Any:
     """
     if not rigid.shape[1]:
         return K
-    basis = scipy.linalg.qr(np.asarray(rigid), mode="economic")[0]
+    if is_elsewhere(K):
+        return K.held_by_springs(rigid, stiffness)
+    basis = scipy.linalg.qr(rigid, mode="economic")[0]
     dofs = scipy.linalg.qr(basis.T, mode="economic", pivoting=True)[2][: rigid.shape[1]]
     springs = np.zeros(K.shape[0])
     springs[dofs] = K.diagonal().mean() if K.nnz else stiffness
-    if is_elsewhere(K):
-        return K.stiffened(springs)
     held = K.copy()
     held.setdiag(K.diagonal() + springs)  # keeps the pattern, which a sum would thin out
     return held

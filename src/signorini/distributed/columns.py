@@ -50,6 +50,19 @@ class ColumnsOnRanks:
             return np.array([column @ values for column in self._columns], dtype=np.float64)
         return np.asarray(np.asarray(self).T @ values)
 
+    def far_apart(self) -> IntArray:
+        """(k,) Rows that tell the columns, which are independent, apart: pivots of an orthonormal basis of theirs."""
+        products = np.array([self.along(column) for column in self._columns])
+        rest: ColumnsOnRanks = self @ np.linalg.inv(np.linalg.cholesky(products)).T
+        found = []
+        for _ in self._columns:
+            size: Any = sum(column * column for column in rest._columns)
+            row = int(np.flatnonzero(size == size.max())[0])
+            way = rest[np.array([row])][0]
+            found.append(row)
+            rest = rest @ (np.eye(len(way)) - np.outer(way, way) / (way @ way))
+        return np.array(found)
+
     def __getitem__(self, rows: IntArray) -> Array:
         """(m, k) Some rows, by their numbers (m,)."""
         return np.array([column[rows] for column in self._columns]).reshape(len(self._columns), len(rows)).T

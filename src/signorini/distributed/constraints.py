@@ -118,10 +118,11 @@ class ConstraintsOnRanks(Constraints):
 
     def in_free(self, rows: sp.csr_array) -> sp.csr_array:
         """(k, z) Rows (k, dofs) in terms of the free displacements: of these, only what rows see is asked for."""
-        if len(self.dependent):
-            return super().in_free(rows)
-        seen = distinct(rows.indices)
-        transform = transform_of(self.free[seen], self.rows.unknowns.size, self.dependent, self.shares)
+        follow = np.isin(self.dependent, rows.indices)
+        shares = chosen_rows(self.shares, follow)
+        seen = distinct(np.concatenate([rows.indices, shares.indices]))
+        few = np.searchsorted(seen, self.dependent[follow]), chosen_columns(shares, seen)
+        transform = transform_of(self.free[seen], self.rows.unknowns.size, *few)
         return sp.csr_array(chosen_columns(rows, seen) @ transform)
 
     def of_free(self, motions: Array) -> Any:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from signorini.arrays import Array, IntArray, distinct
 from signorini.distributed.bodies import RowsOnRanks
+from signorini.distributed.columns import ColumnsOnRanks
 from signorini.distributed.constraints import ConstraintsOnRanks
 from signorini.distributed.factors import (
     AskedOfFactors,
@@ -114,6 +115,18 @@ class MatrixOnRanks:
         springs : (z,) what is added, here or on the ranks
         """
         return replace(self, springs=self.springs + springs)
+
+    def held_by_springs(self, rigid: ColumnsOnRanks, stiffness: float) -> MatrixOnRanks:
+        """This matrix with a spring for each rigid motion, see :func:`signorini.condense.response.held_by_springs`.
+
+        Parameters
+        ----------
+        rigid : (z, k) on the ranks
+        stiffness : of the springs where nothing deforms
+        """
+        dofs = rigid.far_apart()
+        spring = self.on_free.sum() / len(self.springs) if self.nnz else stiffness
+        return self.stiffened(self.on_ranks.unknowns.spread(dofs, np.full(len(dofs), spring)))
 
     def bordered(self, B: sp.csr_array) -> MatrixOnRanks:
         """``[[K, B^T], [B, 0]]``.

@@ -93,14 +93,14 @@ def bolt_results(
     Parameters
     ----------
     model : with what its bolts stand for
-    displacement : (nodes, d) length
+    displacement : (dofs,) length
     factors : of the loads, by name
     reactions : of the supports, by name
     """
     return {
         bolt.label: BoltResult(
             force=(bolt.force or 0.0) * factors.get(bolt.label, 0.0) + float(reactions[bolt.label][0]),
-            shortening=float(displacement[model.mesh.nodes[bolt.section][0], 0]),
+            shortening=float(displacement[model.components * int(model.mesh.nodes[bolt.section][0])]),
         )
         for bolt in model.bolts
     }

@@ -66,15 +66,15 @@ def limit_load(prepared: Prepared, state: State, end: LoadPoint, *, near: bool) 
     bounded = (slope >= ADHESION_SLOPE) & ~interface.friction.sticks[acts]  # by a limit alone: no cone is known
     if not prepared.floating.shape[1] or bounded.any() or not state.forces.any():
         return None
-    moving = prepared.motions @ prepared.floating
-    P = np.asarray(interface.B[interface.rows(acts)] @ moving)
+    constraints, rigid, floating = prepared.constraints, prepared.rigid, prepared.floating
+    P = np.asarray(interface.felt(rigid) @ floating)[interface.rows(acts)]
     R, triangle = np.linalg.qr(P)
     if np.abs(np.diag(triangle)).min() <= _FELT * np.abs(triangle).max():
         return None
 
     def work(point: LoadPoint) -> Array:
-        loads = applied(prepared, point)[0] + interface.on_bodies(point.given)
-        return np.asarray(np.linalg.solve(triangle.T, moving.T @ loads))
+        loads = applied(prepared, point)[0] + prepared.pushed(point.given)
+        return np.asarray(np.linalg.solve(triangle.T, floating.T @ constraints.resultants(rigid, loads)))
 
     load = work(state.point)
     growth = work(end) - load

@@ -80,8 +80,7 @@ def on_the_way(prepared: Prepared, last: State, point: LoadPoint, now: PathState
     forces, status = settled(prepared, forces, status)
     slip[:, active] = now.slip / root
     dissipation[active] = now.dissipation
-    return replace(
-        last,
+    return last.changed(
         point=point,
         forces=forces + point.given if point.pull is None else forces + point.given + point.pull,
         gap=moved[0],
@@ -128,7 +127,7 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
         moved=moved,
         status=seen.status,
     )
-    return replace(after, slip=seen.slip, dissipation=seen.dissipation)
+    return after.changed(slip=seen.slip, dissipation=seen.dissipation)
 
 
 def balanced(prepared: Prepared, last: State, here: State, lost: float) -> State:
@@ -144,7 +143,7 @@ def balanced(prepared: Prepared, last: State, here: State, lost: float) -> State
     lost : what contact takes in between, ``-int r . dh``
     """
     stored = stored_energy(prepared, here) - stored_energy(prepared, last)
-    return replace(here, work=last.work + stored + lost + here.released - last.released)
+    return here.changed(work=last.work + stored + lost + here.released - last.released)
 
 
 def tangential(prepared: Prepared, state: State, h: Array) -> Array:

@@ -7,13 +7,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import Array, IntArray, distinct, frozen
 from signorini.fem.obstacles import arm
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.model.links import directions
 from signorini.model.model import Model
 from signorini.solution.obstacle_result import ObstacleMotion, ObstacleResult
+from signorini.sparse_rows import chosen_columns
 
 
 def reactions(
@@ -39,7 +40,10 @@ def reactions(
             dofs, size = rigid_dofs(model, space, j)
             forces[support.label] = frozen(np.where(owner[dofs] == i, held[dofs] * size, 0.0))
     for name, S in constraints.springs.items():
-        forces[name] = frozen(-(S.T @ (S @ displacement) * space.arms).reshape(-1, d).sum(axis=0))
+        seen = distinct(S.indices)
+        near, borne = chosen_columns(S, seen), np.zeros(d)
+        np.add.at(borne, seen % d, -(near.T @ (near @ displacement[seen])) * space.arms_at(seen))
+        forces[name] = frozen(borne)
     return forces
 
 

@@ -85,7 +85,7 @@ def step_result(
             for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles))
         },
         reactions={name: force for name, force in forces.items() if name not in bolts},
-        bolts=bolt_results(model, space.at_nodes(state.displacement), state.point.factors, forces) if bolts else {},
+        bolts=bolt_results(model, u, state.point.factors, forces) if bolts else {},
         strain_energy=stored - layers - springs - state.closing_work + heat(state),
         interface_energy=layers + springs,
         work=state.work - before.work + heat(state) - heat(before),
@@ -180,12 +180,13 @@ def _external(prepared: Prepared, state: State, loads: Array, held: Array) -> Ar
             return external
         force = np.where(constraints.held, external, prepared.frames.in_space(external, state.displacement))
         return np.where(constraints.alone, loads, force)
-    force = np.array(np.where(constraints.alone | (constraints.free >= 0), loads, loads + held))
-    at_nodes = prepared.space.at_nodes(force)
-    loose = prepared.space.loose_nodes
+    force = np.where(constraints.alone | (constraints.free >= 0), loads, loads + held)
+    d, loose = model.dimension, prepared.space.loose_nodes
     for j, body in enumerate(model.rigid_bodies, start=len(model.obstacles)):
-        here = loose[(model.mesh.points[loose] == np.array(body.point)).all(axis=1)]
-        at_nodes[here[:1], : model.dimension] += force[rigid_dofs(model, prepared.space, j)[0][: model.dimension]]
+        here = loose[(model.mesh.places_of(loose) == np.array(body.point)).all(axis=1)][:1]
+        if len(here):
+            borne = force[rigid_dofs(model, prepared.space, j)[0][:d]]
+            force = force + constraints.spread(prepared.space.dofs(here)[0, :d], borne)
     return force
 
 

@@ -211,7 +211,7 @@ def _follow(
     prepared.clock.expect(sum(_expected(stage) for stage in schedule))
     steps: list[StepResult] = []
     constraints = _constraints(prepared, standing.released)
-    end, first = begin, instant_of(prepared, state) if state.displacement.any() else None
+    end, first = begin, instant_of(prepared, state) if state.nodal[0].any() else None
     if tape is not None:
         tape.end = begin.state
     try:

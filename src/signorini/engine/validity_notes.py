@@ -8,11 +8,12 @@ strain or turn far, contacts that slip far.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from scipy.sparse.csgraph import connected_components
 
-from signorini.arrays import BoolArray, IntArray, distinct, extent
+from signorini.arrays import Array, BoolArray, IntArray, distinct, extent
 from signorini.engine.examine import Examined
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart
@@ -35,6 +36,7 @@ _OVERLAP_TOL = 1e-9  # of the size of the model: less is no overlap
 _STRAINED = 0.25  # of the size of a body
 _SLID = 0.1  # of the size of what touches
 _DEEP = 0.1  # of the facets beside a node: beyond it the bodies are not those that were meshed
+_AT_ONCE = 1 << 16  # nodes whose displacements are asked for together: what they take does not grow with the mesh
 _FLOWED = 0.05  # equivalent plastic strain: beyond it small strains and those of true-stress tables differ visibly
 
 
@@ -187,6 +189,30 @@ def _surely_small(prepared: Prepared, state: State, bodies: Sequence[ConnectedBo
     return bool(across <= 2.0 * _STRAINED * min((part.size for part in bodies), default=np.inf))
 
 
+def _spread(prepared: Prepared, u: Any, nodes: IntArray) -> Array:
+    """(c,) How far apart displacements (dofs,) move nodes, length, without the turn of a body around the axis.
+
+    Some nodes at a time: on ranks nobody has the displacements of all.
+    """
+    space, chunks = prepared.space, [nodes[i : i + _AT_ONCE] for i in range(0, len(nodes), _AT_ONCE)]
+
+    def around(chunk: IntArray) -> Array:
+        return space.mesh.places_of(chunk)[:, 0]
+
+    turn = 0.0
+    if prepared.model.twists:
+        sums = [(u[space.dofs(chunk)[:, 2]] @ around(chunk), around(chunk) @ around(chunk)) for chunk in chunks]
+        along, size = np.sum(sums, axis=0)
+        turn = float(along / max(size, 1e-300))
+    ends = []
+    for chunk in chunks:
+        moved = u[space.dofs(chunk)]
+        if turn:
+            moved[:, 2] -= turn * around(chunk)
+        ends += [moved.min(axis=0), moved.max(axis=0)]
+    return extent(np.array(ends))
+
+
 def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
     """Bodies that strain or turn by a quarter of their size, contacts that slip by a tenth of theirs.
 
@@ -194,14 +220,9 @@ def large_notes(prepared: Prepared, state: State) -> Iterator[str]:
     """
     bodies = [part for part in prepared.parts if part.kind == ConnectedBody.kind]
     if not _surely_small(prepared, state, bodies):
-        u = state.displacement
-        displacement = prepared.space.at_nodes(prepared.frames.elastic(u) if prepared.turns else u)
+        u = prepared.frames.elastic(state.displacement) if prepared.turns else state.nodal[0]
         for part in bodies:
-            moved = displacement[part.nodes]
-            if prepared.model.twists:
-                radii = prepared.space.mesh.places_of(part.nodes)[:, 0]
-                moved = moved - np.outer(radii, [0.0, 0.0, moved[:, 2] @ radii / max(float(radii @ radii), 1e-300)])
-            change = float(np.linalg.norm(extent(moved))) / (2.0 * part.size)
+            change = float(np.linalg.norm(_spread(prepared, u, part.nodes))) / (2.0 * part.size)
             if change > _STRAINED:
                 yield (
                     f"{part.label} strains or turns by {change:.0%} of its size: equilibrium is that of the undeformed "

@@ -42,6 +42,15 @@ class MatrixElsewhere(Protocol):
         springs : (n,) what is added
         """
 
+    def held_by_springs(self, rigid: Any, stiffness: float) -> Self:
+        """This matrix with a spring for each rigid motion, see :func:`signorini.condense.response.held_by_springs`.
+
+        Parameters
+        ----------
+        rigid : (n, k) motions, where its rows are
+        stiffness : of the springs where nothing deforms
+        """
+
     def bordered(self, B: sparse.csr_array) -> Self:
         """``[[K, B^T], [B, 0]]``, see :func:`signorini.linalg.system.bordered`.
 
