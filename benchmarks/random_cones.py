@@ -11,6 +11,7 @@ load, as a part of it, or why there is none. Differences are of steps that chang
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -129,24 +130,40 @@ def differences(seed: int) -> dict[tuple[str, str], float]:
     return found
 
 
-def main() -> None:
-    """Print a line for each model, and the worst."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def survey(words: str, difference: Callable[[int], tuple[float, str]]) -> None:
+    """Print a line for each model, and how many agree.
+
+    Parameters
+    ----------
+    words : what is surveyed
+    difference : the largest one of a model, and what has it
+    """
+    parser = argparse.ArgumentParser(description=words)
     parser.add_argument("first", type=int, nargs="?", default=0, help="number of the first model")
     parser.add_argument("last", type=int, nargs="?", default=60, help="number behind the last")
     options = parser.parse_args()
     worst, refused = [0.0], 0
     for seed in range(options.first, options.last):
         try:
-            found = differences(seed)
+            lost, what = difference(seed)
         except sg.InputError as error:
             refused += 1
             print(f"{seed:4d}  refused: {error}", flush=True)
             continue
-        (parameter, output), lost = max(found.items(), key=lambda one: one[1])
         worst.append(lost)
-        print(f"{seed:4d}  {lost:.1e}  {output} by {parameter}", flush=True)
+        print(f"{seed:4d}  {lost:.1e}  {what}", flush=True)
     print(f"{len(worst) - 1} models, the largest difference {max(worst):.1e}; {refused} refused")
+
+
+def largest(seed: int) -> tuple[float, str]:
+    """The largest of the differences of a model, and the output and parameter that have it."""
+    (parameter, output), lost = max(differences(seed).items(), key=lambda one: one[1])
+    return lost, f"{output} by {parameter}"
+
+
+def main() -> None:
+    """Print a line for each model, and how many agree."""
+    survey(__doc__.splitlines()[0], largest)
 
 
 if __name__ == "__main__":

@@ -11,12 +11,12 @@ one, or why there is none. Differences are of answers to that side alone, in the
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Sequence
 
 import numpy as np
 
 import signorini as sg
+from benchmarks.random_cones import survey
 from signorini.arrays import Array
 from signorini.derivative.functionals import value
 from signorini.model.outputs import Output
@@ -44,8 +44,8 @@ def limits(outputs: Sequence[Output], model_at: Callable[[float], sg.Model], ste
     return np.column_stack([one_sided(-1.0), one_sided(1.0)])
 
 
-def difference(seed: int) -> float:
-    """How far differences are from derivatives, at most, as a part of the larger one.
+def difference(seed: int) -> tuple[float, str]:
+    """How far differences are from derivatives, at most, as a part of the larger one, and of which output.
 
     Parameters
     ----------
@@ -66,24 +66,12 @@ def difference(seed: int) -> float:
         wanted = limits(outputs, lambda one: squeezed_in_space(seed, one, facets=0), step)
         size = np.maximum(np.maximum(np.abs(wanted), np.abs(found)).max(axis=1), np.finfo(float).tiny)
         best = np.minimum(best, np.abs(found - wanted).max(axis=1) / size)
-    return float(best.max())
+    return float(best.max()), repr(outputs[int(best.argmax())])
 
 
 def main() -> None:
     """Print a line for each model, and how many agree."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("first", type=int, nargs="?", default=0, help="number of the first model")
-    parser.add_argument("last", type=int, nargs="?", default=60, help="number behind the last")
-    options = parser.parse_args()
-    lost, refused = [0.0], 0
-    for seed in range(options.first, options.last):
-        try:
-            lost.append(difference(seed))
-            print(f"{seed:4d}  {lost[-1]:.1e}", flush=True)
-        except sg.InputError as error:
-            refused += 1
-            print(f"{seed:4d}  refused: {error}", flush=True)
-    print(f"{len(lost) - 1} models, the largest difference {max(lost):.1e}; {refused} refused")
+    survey(__doc__.splitlines()[0], difference)
 
 
 if __name__ == "__main__":

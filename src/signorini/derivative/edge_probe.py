@@ -18,10 +18,8 @@ from signorini.arrays import Array, IntArray
 from signorini.derivative.adjoint_terms import Adjoint, BoundTerm, Weights
 from signorini.derivative.points import TapePoint, with_trials
 from signorini.derivative.recursion import Change, backward, changed
-from signorini.derivative.validity import edge_words, on_edge
+from signorini.derivative.validity import NOTHING_APART, edge_words, on_edge
 from signorini.derivative.view import HistoryView
-
-_NOTHING_APART = 1e-11  # of what a parameter changes of all conditions there: of those on edges less is rounding
 
 
 class EdgeProbe:
@@ -62,7 +60,7 @@ class EdgeProbe:
         if self.unsure:
             return True
         on_edges, of_all = (changed(self._every, adjoint, change) for adjoint in self._sums)
-        return abs(on_edges) > _NOTHING_APART * abs(of_all)
+        return abs(on_edges) > NOTHING_APART * abs(of_all)
 
     def parted_by_gaps(self, numbers: Collection[int]) -> bool:
         """Whether gaps of single pairs take edges apart at any of some points."""
@@ -108,7 +106,7 @@ class EdgeProbe:
 
 def _parted(on_edges: Adjoint, of_all: Adjoint) -> bool:
     """Whether gaps of single pairs change conditions on edges, beside what they change of all conditions there."""
-    return bool(np.abs(on_edges.by_gaps).max() > _NOTHING_APART * np.abs(of_all.by_gaps).max())
+    return bool(np.abs(on_edges.by_gaps).max() > NOTHING_APART * np.abs(of_all.by_gaps).max())
 
 
 def _weights(point: TapePoint, numbers: IntArray, share: Array) -> Weights:

@@ -18,7 +18,8 @@ from signorini.solution.sensitivities import Validity
 SHARED_EVENT = 1e-7
 """Of the largest move of an event: by how much events that share a load may move apart."""
 
-_NOTHING_APART = 1e-11  # of what a parameter changes of all conditions of a history: of those on edges less is rounding
+NOTHING_APART = 1e-11
+"""Of what a parameter changes of all conditions: of those on edges less is rounding."""
 
 
 def validity(view: HistoryView, changes: Sequence[PointChange], at_start: Sequence[PathEdge]) -> Validity:
@@ -114,7 +115,7 @@ def least_apart(view: HistoryView, changes: Sequence[PointChange], rounding: flo
     """
     both = zip(view.points, changes, strict=True)
     most = (np.abs(change_of_conditions(*one)).max(initial=0.0) / (one[0].system.law.scale or 1.0) for one in both)
-    return max(rounding, _NOTHING_APART * float(max(most, default=0.0)))
+    return max(rounding, NOTHING_APART * float(max(most, default=0.0)))
 
 
 def _turning_alike(view: HistoryView, i: int, change: PointChange, least: float) -> Iterator[PathEdge]:

@@ -75,7 +75,7 @@ def held_until(problem: ContactProblem, start: PathState, h: Array, r: Array, wi
     slips = (pressing > 0) & (size > width) & ~closes
     lacking = _lacking(problem, start, slip)
     # on a smooth section the force turns with the slip; how far is another question, see `friction_turns`
-    starts = slips & ~_turns(problem, start, slip, width) & (lacking > width)
+    starts = slips & ~_turns(problem, start, size, lacking, width) & (lacking > width)
     until[starts] = lacking[starts] / (lacking + size)[starts]
     for kink in problem.pieces.kinks[1:-1]:
         low, high = np.minimum(p, pressing), np.maximum(p, pressing)
@@ -94,8 +94,9 @@ def friction_turns(problem: ContactProblem, start: PathState, r: Array, slip: Ar
     """
     one, two = start.r[1:], r[1:]
     long = np.minimum(np.linalg.norm(one, axis=0), np.linalg.norm(two, axis=0))
-    slips = np.linalg.norm(slip, axis=0) > width
-    which = slips & (long > 1e3 * width) & _turns(problem, start, slip, width)
+    size = np.linalg.norm(slip, axis=0)
+    turns = _turns(problem, start, size, _lacking(problem, start, slip), width)
+    which = (size > width) & (long > 1e3 * width) & turns
     cross, along = one[0] * two[1] - one[1] * two[0], (one * two).sum(axis=0)
     return np.where(which, np.arctan2(cross, along), 0.0)
 
@@ -113,7 +114,7 @@ def _lacking(problem: ContactProblem, start: PathState, slip: Array) -> Array:
     return np.divide(along, size, out=np.zeros_like(along), where=size > 0.0)
 
 
-def _turns(problem: ContactProblem, start: PathState, slip: Array, width: float) -> BoolArray:
+def _turns(problem: ContactProblem, start: PathState, size: Array, lacking: Array, width: float) -> BoolArray:
     """(n,) Whether pairs that slip in a piece do so all the way, under a friction that turns with them.
 
     On smooth sections, from their limit on. A pair that leaves its limit, and has just come to it elsewhere, has
@@ -122,11 +123,11 @@ def _turns(problem: ContactProblem, start: PathState, slip: Array, width: float)
 
     Parameters
     ----------
-    problem, start, slip, width : see `friction_turns`
+    problem, start, width : see `friction_turns`
+    size, lacking : (n,) of the slip, and see `_lacking`
     """
     spent = problem.law.reserve(start.r) <= width
-    chord = _CHORD * _lacking(problem, start, slip) > np.linalg.norm(slip, axis=0)
-    return np.asarray((problem.section.sides == 0) & spent & ~chord)
+    return np.asarray((problem.section.sides == 0) & spent & (_CHORD * lacking <= size))
 
 
 def extrapolated_length(problem: ContactProblem, start: PathState, end: PathState, width: float) -> float:
