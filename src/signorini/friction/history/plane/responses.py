@@ -23,8 +23,9 @@ DRIFT = 1e-12
 Changes of an inverse add up from state to state; what is left stays far below the 1e-8 that a certificate allows.
 """
 
-MISFIT_ROUNDING = 2e-15
-"""Error of a response, relative to its largest entry, that is not refined."""
+_MISFIT_ROUNDING = 2e-15
+"""Error of the response of a pair, relative to its largest entry, that is not refined; times the root of the number of
+pairs, as the rounding of sums of so many terms."""
 
 
 class Responses:
@@ -38,6 +39,7 @@ class Responses:
     ----------
     inverse : of the last state
     pivots : states tried so far
+    rounding : error of a response, relative to its largest entry, that is not refined
 
     Examples
     --------
@@ -55,6 +57,7 @@ class Responses:
         self.problem = problem
         self.inverse = StateInverse(problem)
         self.pivots = 0
+        self.rounding = _MISFIT_ROUNDING * np.sqrt(max(1, problem.pairs))
         self._state: IntArray | None = None
 
     def free(self, b: Array) -> Array:
@@ -118,7 +121,7 @@ class Responses:
         """
         error = self.problem.misfit(h, r, b)
         size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
-        if np.abs(error).max(initial=0.0) > MISFIT_ROUNDING * size:
+        if np.abs(error).max(initial=0.0) > self.rounding * size:
             dh, dr = self.respond(state, self.free(error))
             return h + dh, r + dr
         return h, r

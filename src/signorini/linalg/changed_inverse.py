@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The inverse of a dense matrix that is bordered, loses rows and columns, and is changed by low ranks.
+
+It is a base and low ranks beside it, ``X = P' X_0 P + U V``, P the places that are left of the base. Factors serve as
+``X_0`` as long as little has changed: to invert them takes twice as long as they did. Low ranks are collected, since to
+put a few dozen into the base at once takes hardly longer than one of them, which has to read and write all of it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import lapack
+
+from signorini.arrays import Array, IntArray
+from signorini.linalg.shared_dense import (
+    add_product,
+    cholesky,
+    factorise_with_pivots,
+    inverse_of_cholesky,
+    inverse_of_factors,
+    product,
+)
+
+COLLECTED = 32
+"""Ranks that are collected beside a base: a product with them reads as much as one with a base of 64 rows."""
+
+
+class ChangedInverse:
+    """The inverse X of a matrix M, (m, m), and of what becomes of it.
+
+    Parameters
+    ----------
+    matrix : (m, m) M by columns; overwritten
+    symmetric : whether it is symmetric and positive definite: half the operations
+
+    Attributes
+    ----------
+    condition : reciprocal condition number of M in the norm of column sums, estimated, 0 where it has no factors
+
+    Examples
+    --------
+    >>> inverse = ChangedInverse(np.asfortranarray(np.diag([2.0, 4.0])))
+    >>> inverse.border(1)
+    >>> inverse.add(np.array([[0.5, 0.0], [0.0, 0.0], [0.0, -0.5]]), np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]))
+    >>> inverse.keep(np.array([2, 0]))
+    >>> inverse.times(np.array([2.0, 3.0])).tolist(), inverse.whole.tolist()
+    ([-1.0, 3.0], [[-0.5, 0.0], [0.0, 1.0]])
+    """
+
+    def __init__(self, matrix: Array, *, symmetric: bool = False) -> None:
+        m = len(matrix)
+        norm = float(np.abs(matrix).sum(axis=0).max(initial=0.0))
+        self.condition = 1.0
+        self._base, self._place = matrix, np.arange(m)  # where in the base what is left stands, -1: nowhere
+        self._swapped: IntArray | None = None  # rows of factors with pivots
+        self._known = not m  # whether the base is an inverse, not factors
+        self._left, self._right = np.empty((m, 0)), np.empty((0, m))
+        if symmetric and m:
+            failed = cholesky(matrix)
+            self.condition = 0.0 if failed else float(lapack.dpocon(matrix, norm, uplo="L")[0])
+        elif m:
+            self._swapped, failed = factorise_with_pivots(matrix)
+            self.condition = 0.0 if failed else float(lapack.dgecon(matrix, norm)[0])
+
+    def __len__(self) -> int:
+        return len(self._place)
+
+    @property
+    def whole(self) -> Array:
+        """(m, m) X by columns: the base with all changes in it from now on."""
+        left, right = self._left, self._right
+        kept, own = np.flatnonzero(self._place >= 0), self._place[self._place >= 0]
+        if not self._known:
+            base = np.empty(self._base.shape, order="F")
+            if self._swapped is None:
+                base = inverse_of_cholesky(self._base, overwrite=True)
+            else:
+                inverse_of_factors(self._base, self._swapped, base)
+            self._base, self._known = base, True
+        if len(own) < len(self) or not np.array_equal(own, np.arange(len(self._base))):
+            moved = np.zeros((len(self), len(self)), order="F")
+            moved.T[np.ix_(kept, kept)] = self._base.T[np.ix_(own, own)]
+            self._base, self._place = moved, np.arange(len(self))
+        if left.shape[1] and len(self):
+            add_product(self._base, np.asfortranarray(left), right)
+        self._left, self._right = left[:, :0], right[:0]
+        return self._base
+
+    def times(self, b: Array) -> Array:
+        """``X b``; b (m,) or (m, k)."""
+        found = self._of_base(b, transposed=False)
+        return found + self._left @ (self._right @ b) if self._left.shape[1] else found
+
+    def transposed_times(self, b: Array) -> Array:
+        """``X' b``; b (m,) or (m, k)."""
+        found = self._of_base(b, transposed=True)
+        return found + self._right.T @ (self._left.T @ b) if self._left.shape[1] else found
+
+    def columns(self, places: IntArray) -> Array:
+        """(m, k) Some of X."""
+        if not self._known:
+            return self.times(self._units(places))
+        return self._some(self._base, places) + self._left @ self._right[:, places]
+
+    def rows(self, places: IntArray) -> Array:
+        """(k, m) Some of X."""
+        if not self._known:
+            return self.transposed_times(self._units(places)).T
+        return self._some(self._base.T, places).T + self._left[places] @ self._right
+
+    def add(self, left: Array, right: Array) -> None:
+        """Change X by ``left right``, (m, k) and (k, m)."""
+        self._left, self._right = np.hstack([self._left, left]), np.vstack([self._right, right])
+        if self._left.shape[1] > COLLECTED:
+            _ = self.whole
+
+    def border(self, k: int) -> None:
+        """Border X by k rows and columns of zeros."""
+        self._place = np.concatenate([self._place, np.full(k, -1)])
+        self._left, self._right = np.pad(self._left, ((0, k), (0, 0))), np.pad(self._right, ((0, 0), (0, k)))
+
+    def keep(self, places: IntArray) -> None:
+        """Keep some rows and columns of X, in another order."""
+        self._place = self._place[places]
+        self._left, self._right = self._left[places], self._right[:, places]
+
+    def _of_base(self, b: Array, *, transposed: bool) -> Array:
+        """``P' X_0 P b`` or its transpose."""
+        base, kept = self._base, self._place >= 0
+        given = np.zeros((len(base), *b.shape[1:]))
+        given[self._place[kept]] = b[kept]
+        if self._known:
+            matrix = base.T if transposed else base
+            found = product(matrix, given) if given.ndim == 1 else matrix @ given
+        elif self._swapped is None:
+            found = lapack.dpotrs(base, given, lower=1)[0]
+        else:
+            found = lapack.dgetrs(base, self._swapped, given, trans=int(transposed))[0]
+        left = np.zeros(b.shape)
+        left[kept] = found[self._place[kept]]
+        return left
+
+    def _some(self, base: Array, places: IntArray) -> Array:
+        """(m, k) Some columns of ``P' X_0 P``, of a base that is an inverse, or its transpose."""
+        own = self._place[places]
+        rows, columns = np.flatnonzero(self._place >= 0), np.flatnonzero(own >= 0)
+        found = np.zeros((len(self), len(places)))
+        found[np.ix_(rows, columns)] = base[:, own[columns]][self._place[rows]]
+        return found
+
+    def _units(self, places: IntArray) -> Array:
+        units = np.zeros((len(self), len(places)))
+        units[places, np.arange(len(places))] = 1.0
+        return units
