@@ -24,6 +24,9 @@ from signorini.linalg.shared_dense import (
 COLLECTED = 32
 """Ranks that are collected beside a base: a product with them reads as much as one with a base of 64 rows."""
 
+_ROOM = 64
+"""Rows that a base may grow by before it is moved to larger memory."""
+
 
 class ChangedInverse:
     """The inverse X of a matrix M, (m, m), and of what becomes of it.
@@ -54,6 +57,7 @@ class ChangedInverse:
         self._base, self._place = matrix, np.arange(m)  # where in the base what is left stands, -1: nowhere
         self._swapped: IntArray | None = None  # rows of factors with pivots
         self._known = not m  # whether the base is an inverse, not factors
+        self._size = m  # rows and columns of the base that hold it; others are room to grow
         self._left, self._right = np.empty((m, 0)), np.empty((0, m))
         if symmetric and m:
             failed = cholesky(matrix)
@@ -67,24 +71,41 @@ class ChangedInverse:
 
     @property
     def whole(self) -> Array:
-        """(m, m) X by columns: the base with all changes in it from now on."""
-        left, right = self._left, self._right
-        kept, own = np.flatnonzero(self._place >= 0), self._place[self._place >= 0]
+        """(m, m) X, a view: the base with all changes in it from now on."""
+        m, left, right = len(self), self._left, self._right
         if not self._known:
-            base = np.empty(self._base.shape, order="F")
-            if self._swapped is None:
-                base = inverse_of_cholesky(self._base, overwrite=True)
-            else:
-                inverse_of_factors(self._base, self._swapped, base)
-            self._base, self._known = base, True
-        if len(own) < len(self) or not np.array_equal(own, np.arange(len(self._base))):
-            moved = np.zeros((len(self), len(self)), order="F")
-            moved.T[np.ix_(kept, kept)] = self._base.T[np.ix_(own, own)]
-            self._base, self._place = moved, np.arange(len(self))
-        if left.shape[1] and len(self):
-            add_product(self._base, np.asfortranarray(left), right)
+            self._invert()
+        if m > len(self._base):
+            larger = np.zeros((m + _ROOM, m + _ROOM), order="F")
+            larger[: self._size, : self._size] = self._base[: self._size, : self._size]
+            self._base = larger
+        self._move()
+        if left.shape[1] and m:
+            padded = np.zeros((len(self._base), left.shape[1]), order="F")
+            padded[:m] = left
+            add_product(self._base[:, :m], padded, right)
         self._left, self._right = left[:, :0], right[:0]
-        return self._base
+        return self._base[:m, :m]
+
+    def _invert(self) -> None:
+        """Make the base an inverse."""
+        base = np.zeros((self._size + _ROOM,) * 2, order="F")
+        if self._swapped is None:
+            base[: self._size, : self._size] = inverse_of_cholesky(self._base, overwrite=True)
+        else:
+            inverse_of_factors(self._base, self._swapped, base[: self._size, : self._size])
+        self._base, self._known = base, True
+
+    def _move(self) -> None:
+        """Put rows and columns of a base that is an inverse where they are wanted."""
+        base, m = self._base, len(self)
+        moved = np.flatnonzero(self._place != np.arange(m))
+        to, own = moved[self._place[moved] >= 0], self._place[moved][self._place[moved] >= 0]
+        new = moved[self._place[moved] < 0]
+        base[:, to] = base[:, own]
+        base[to] = base[own]
+        base[:, new], base[new] = 0.0, 0.0
+        self._place, self._size = np.arange(m), m
 
     def times(self, b: Array) -> Array:
         """``X b``; b (m,) or (m, k)."""
@@ -126,8 +147,8 @@ class ChangedInverse:
 
     def _of_base(self, b: Array, *, transposed: bool) -> Array:
         """``P' X_0 P b`` or its transpose."""
-        base, kept = self._base, self._place >= 0
-        given = np.zeros((len(base), *b.shape[1:]))
+        base, kept = self._base[: self._size, : self._size], self._place >= 0
+        given = np.zeros((self._size, *b.shape[1:]))
         given[self._place[kept]] = b[kept]
         if self._known:
             matrix = base.T if transposed else base
