@@ -52,7 +52,7 @@ class ChangedInverse:
 
     def __init__(self, matrix: Array, *, symmetric: bool = False) -> None:
         m = len(matrix)
-        norm = float(np.abs(matrix).sum(axis=0).max(initial=0.0))
+        norm = float(lapack.dlange("1", matrix)) if m else 0.0
         self.condition = 1.0
         self._base, self._place = matrix, np.arange(m)  # where in the base what is left stands, -1: nowhere
         self._swapped: IntArray | None = None  # rows of factors with pivots

@@ -23,9 +23,9 @@ DRIFT = 1e-12
 Changes of an inverse add up from state to state; what is left stays far below the 1e-8 that a certificate allows.
 """
 
-_MISFIT_ROUNDING = 2e-15
-"""Error of the response of a pair, relative to its largest entry, that is not refined; times the root of the number of
-pairs, as the rounding of sums of so many terms."""
+_ROUNDING, _FEW_PAIRS = 2e-15, 50
+"""Error of a response, relative to its largest entry, that is not refined, of so many pairs; of more in proportion, as
+sums of so many terms are rounded."""
 
 
 class Responses:
@@ -57,7 +57,7 @@ class Responses:
         self.problem = problem
         self.inverse = StateInverse(problem)
         self.pivots = 0
-        self.rounding = _MISFIT_ROUNDING * np.sqrt(max(1, problem.pairs))
+        self.rounding = _ROUNDING * max(1.0, problem.pairs / _FEW_PAIRS)
         self._state: IntArray | None = None
 
     def free(self, b: Array) -> Array:
