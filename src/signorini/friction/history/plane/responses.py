@@ -23,9 +23,8 @@ DRIFT = 1e-12
 Changes of an inverse add up from state to state; what is left stays far below the 1e-8 that a certificate allows.
 """
 
-_ROUNDING, _FEW_PAIRS = 2e-15, 50
-"""Error of a response, relative to its largest entry, that is not refined, of so many pairs; of more in proportion, as
-sums of so many terms are rounded."""
+_EXACT_ENOUGH = 2e-15  # of the largest entry of a response: an error that is not refined, of a few pairs
+_FEW_PAIRS = 50  # pairs up to which it is that; of more in proportion, as sums of so many terms are rounded
 
 
 class Responses:
@@ -57,7 +56,7 @@ class Responses:
         self.problem = problem
         self.inverse = StateInverse(problem)
         self.pivots = 0
-        self.rounding = _ROUNDING * max(1.0, problem.pairs / _FEW_PAIRS)
+        self.rounding = _EXACT_ENOUGH * max(1.0, problem.pairs / _FEW_PAIRS)
         self._state: IntArray | None = None
 
     def free(self, b: Array) -> Array:

@@ -24,6 +24,10 @@ REFRESH = 400
 """Changes of state after which the system is factorised afresh."""
 
 
+_SCATTERED = 3
+"""Forces of all to one that acts up to which a product reads all of the compliance: gathered rows are written, too."""
+
+
 class SingularState(Exception):
     """Some load leaves the motions or the forces of a state undetermined."""
 
@@ -53,12 +57,10 @@ class StateInverse:
     """
 
     def __init__(self, problem: ContactProblem) -> None:
-        A, self._motions = problem.image.A, problem.image.R
-        self._forces = np.hstack([A, self._motions])  # what all equations see of each, in rows
-        equations = self._forces.shape[1]
+        self._A, self._motions = problem.image.A, problem.image.R
+        equations = sum(self._motions.shape)
         self._bound, self._n = problem.pieces, problem.pairs
         self._state: IntArray | None = None
-        self._columns = np.empty((equations, equations), order="F")  # of the unknowns, as all equations see them
         self._inverse = ChangedInverse(np.empty((0, 0), order="F"))
         self._place = np.full(equations, -1)  # of an unknown among those of the state
         self._list = np.empty(equations, dtype=np.int64)
@@ -88,7 +90,14 @@ class StateInverse:
 
     def seen(self, x: Array) -> Array:
         """(2n + k,) What all equations see of unknowns, (m,)."""
-        return product(self._columns[:, : self._count], x)
+        n, full = self._n, np.zeros(self.rows)
+        full[self.unknowns] = x
+        full[n : 2 * n] += self.slope * full[:n]
+        forces, motion = full[: 2 * n], full[2 * n :]
+        acting = np.flatnonzero(forces)
+        scattered = _SCATTERED * len(acting) < 2 * n
+        moved = forces[acting] @ self._A[acting] if scattered else product(self._A, forces)
+        return np.concatenate([moved + self._motions @ motion, self._motions.T @ forces])
 
     def move_to(self, state: IntArray) -> None:
         """Make it the inverse of another state.
@@ -127,12 +136,14 @@ class StateInverse:
         self._list[:m] = np.concatenate([forces, np.arange(2 * n, len(self._list))])
         self._place[:] = -1
         self._place[self.unknowns] = np.arange(m)
-        columns = self._columns[:, :m]
-        np.take(self._forces, forces, axis=0, out=columns.T[: len(forces)], mode="clip")
-        columns[: 2 * n, len(forces) :], columns[2 * n :, len(forces) :] = self._motions, 0.0
+        matrix = np.zeros((m, m), order="F")
+        matrix.T[: len(forces), : len(forces)] = self._A[np.ix_(forces, forces)]
         slips = np.flatnonzero(self.slope[closed])
-        columns[:, slips] += (self._forces[n + closed[slips]] * self.slope[closed[slips], None]).T
-        matrix = np.take(columns.T, self.unknowns, axis=1).T  # by columns, as factors are
+        pairs, share = closed[slips], self.slope[closed[slips]]
+        matrix.T[slips, : len(forces)] += share[:, None] * self._A[np.ix_(n + pairs, forces)]
+        matrix[: len(forces), len(forces) :] = self._motions[forces]
+        matrix[len(forces) :, : len(forces)] = self._motions[forces].T
+        matrix[len(forces) :, slips] += share * self._motions[n + pairs].T
         self._inverse = ChangedInverse(matrix, symmetric=not len(slips) and m == len(forces))
         if self._inverse.condition < SINGULAR:
             raise SingularState
@@ -163,16 +174,16 @@ class StateInverse:
         if not len(new):
             return True
         m, n, known, k = self._count, self._n, self.unknowns, len(new)
-        columns = self._columns[:, m : m + k]
-        columns[:] = self._forces[new].T
+        felt = self._felt(new)  # A and R are symmetric: what forces of theirs move is what their equations see
+        columns, rows = felt.copy(), felt[:, known]
         normal = np.flatnonzero(new < n)
-        if self.slope[new[normal]].any():
-            columns[:, normal] += (self._forces[n + new[normal]] * self.slope[new[normal], None]).T
-        rows = self._columns[new, :m]
-        u = self._inverse.times(columns[known])
+        columns[normal] += self.slope[new[normal], None] * self._felt(n + new[normal])
+        normal = np.flatnonzero(known < n)
+        rows[:, normal] += felt[:, n + known[normal]] * self.slope[known[normal]]
+        u = self._inverse.times(columns[:, known].T)
         v = self._inverse.transposed_times(rows.T).T
-        size = max(np.abs(columns[new]).max(), (np.abs(rows) @ np.abs(u)).max(initial=0.0))
-        pivot = _inverted(columns[new] - rows @ u, size)
+        size = max(np.abs(columns[:, new]).max(), (np.abs(rows) @ np.abs(u)).max(initial=0.0))
+        pivot = _inverted(columns[:, new].T - rows @ u, size)
         if pivot is None:
             return False
         self._inverse.border(k)
@@ -193,8 +204,6 @@ class StateInverse:
         u, v = self._inverse.columns(places), self._inverse.rows(places)
         block, u, v = u[places], u[order], v[:, order]
         self._inverse.keep(order)
-        for i, j in zip(free, last, strict=True):
-            self._columns[:, i] = self._columns[:, j]
         self._list[free] = self._list[last]
         self._place[old] = -1
         self._place[self._list[free]], self._count = free, left
@@ -213,8 +222,6 @@ class StateInverse:
         n, inverse = self._n, self._inverse
         i, t = self._place[pairs], self._place[n + pairs]
         self.slope[pairs] += share
-        change = (self._forces[n + pairs] * share[:, None]).T
-        self._columns[:, i] += change
         held = t >= 0  # what is left of the tangential force is an unknown
         if held.any():
             moved = np.zeros((self._count, np.count_nonzero(held)))
@@ -222,13 +229,17 @@ class StateInverse:
             self._add_product(moved, inverse.rows(i[held]))
         if held.all():
             return True
-        i, change = i[~held], change[:, ~held]
-        u = inverse.times(change[self.unknowns])
+        i = i[~held]
+        u = inverse.times((self._felt(n + pairs[~held])[:, self.unknowns] * share[~held, None]).T)
         pivot = _inverted(np.eye(len(i)) + u[i], max(1.0, float(np.abs(u).max())))
         if pivot is None:
             return False
         self._add_product(u @ -pivot, inverse.rows(i))
         return True
+
+    def _felt(self, rows: IntArray) -> Array:
+        """(k, 2n + motions) What the equations of some forces see of all forces, and of the rigid motions."""
+        return np.hstack([self._A[rows], self._motions[rows]])
 
     def _add_product(self, u: Array, v: Array) -> None:
         """Change the inverse by ``u v``."""
