@@ -23,7 +23,7 @@ DRIFT = 1e-12
 Changes of an inverse add up from state to state; what is left stays far below the 1e-8 that a certificate allows.
 """
 
-_EXACT_ENOUGH = 2e-15  # of the largest entry of a response: an error that is not refined, of a few pairs
+_MISFIT_ROUNDING = 2e-15  # of the largest entry of a response: an error that is not refined, of a few pairs
 _FEW_PAIRS = 50  # pairs up to which it is that; of more in proportion, as sums of so many terms are rounded
 
 
@@ -56,7 +56,7 @@ class Responses:
         self.problem = problem
         self.inverse = StateInverse(problem)
         self.pivots = 0
-        self.rounding = _EXACT_ENOUGH * max(1.0, problem.pairs / _FEW_PAIRS)
+        self.rounding = _MISFIT_ROUNDING * max(1.0, problem.pairs / _FEW_PAIRS)
         self._state: IntArray | None = None
 
     def free(self, b: Array) -> Array:
