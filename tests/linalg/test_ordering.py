@@ -12,7 +12,7 @@ from scipy import sparse
 from signorini import cores
 from signorini.errors import InputError
 from signorini.linalg import factorise, ordering
-from signorini.linalg.ordering import ORDERED_BY_METIS, nested_dissection
+from signorini.linalg.ordering import nested_dissection
 from signorini.linalg.plan import analyse
 from signorini.linalg.system import checked_system, node_graph
 from tests.helpers.lattices import lattice
@@ -22,13 +22,6 @@ shapes = st.one_of(
     st.tuples(st.integers(2, 40), st.integers(2, 40)),
     st.tuples(st.integers(2, 6), st.integers(2, 6), st.integers(2, 8)),
 )
-
-
-@pytest.fixture(autouse=True, scope="module")
-def _cuts_at_any_size():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(ordering, "ORDERED_BY_METIS", 0)
-        yield
 
 
 def places(body):
@@ -103,21 +96,3 @@ def test_points_that_are_not_those_of_the_nodes(points, message):
     body = lattice((4, 4))
     with pytest.raises(InputError, match=message):
         factorise(body.K, body.interface, nodes=body.nodes, points=points)
-
-
-@pytest.mark.parametrize("more", [0, 1])
-def test_metis_orders_small_graphs_by_their_size_alone(more, monkeypatch):
-    """So a first run compiles no cuts, and has the digits of later ones."""
-    monkeypatch.setattr(ordering, "ORDERED_BY_METIS", ORDERED_BY_METIS)
-    begun = []
-
-    def dissect(graph, *_):
-        begun.append(len(graph.indptr) - 1)
-        return np.arange(begun[0]), np.zeros(begun[0])
-
-    monkeypatch.setattr(ordering, "dissect", dissect)
-    body = lattice((80, 60))
-    graph = node_graph(checked_system(body.K, body.interface, body.nodes, places(body)))
-    cut = replace(graph, interior=ORDERED_BY_METIS + more)
-    assert np.array_equal(np.sort(nested_dissection(cut)), np.arange(ORDERED_BY_METIS + more))
-    assert begun == [ORDERED_BY_METIS + 1] * more

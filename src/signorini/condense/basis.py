@@ -12,6 +12,7 @@ from signorini.arrays import Array
 from signorini.condense.body_blocks import DEPENDENT
 from signorini.dense import solve_triangular
 from signorini.linalg._dense_tiles import mirror
+from signorini.linalg.shared_dense import add_product
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -32,7 +33,7 @@ class Basis:
         return solve_triangular(self.triangle, resultant, transposed=True)
 
     def project(self, A: Array) -> Array:
-        """Overwrite a symmetric A by ``P A P``, P = I - R R^T, and give back ``P A R`` as it was, (n, k).
+        """Overwrite a symmetric A, by rows, by ``P A P``, P = I - R R^T, and give back ``P A R`` as it was, (n, k).
 
         >>> A = np.array([[2.0, 1.0], [1.0, 3.0]])
         >>> np.abs(make_basis(np.array([[0.0], [1.0]])).project(A)).round(12).tolist(), A.round(12).tolist()
@@ -43,8 +44,8 @@ class Basis:
             return leaning
         leaning -= self.R @ (self.R.T @ leaning)
         for _ in range(2):  # bodies may travel far along R
-            A -= self.R @ (self.R.T @ A)
-            A -= (A @ self.R) @ self.R.T
+            add_product(A.T, -(A.T @ self.R), self.R.T)
+            add_product(A.T, -self.R, (A @ self.R).T)
         mirror(A, 0, len(A))
         return leaning
 

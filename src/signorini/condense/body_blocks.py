@@ -18,7 +18,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, IntArray
 from signorini.dense import solve_cholesky, solve_triangular
 from signorini.linalg._dense_tiles import mirror
-from signorini.linalg.shared_dense import cholesky, inverse_of_cholesky
+from signorini.linalg.shared_dense import add_product, cholesky, inverse_of_cholesky
 from signorini.sparse_rows import chosen_columns, chosen_rows
 
 DEPENDENT = 1e-10  # of the largest: what is left of a motion that follows from the others
@@ -88,16 +88,20 @@ class BodyBlocks:
 
     def compliance(self, B: sp.csr_array) -> Array:
         """``B M^-1 B^T`` of the stiffness M with its ties, (k, k), symmetric to the last digit; B (k, m)."""
-        result = np.zeros((B.shape[0],) * 2)
+        rows, result = B.shape[0], np.zeros((0, 0))
         for part in self.blocks:
             own = B if len(part.dofs) == B.shape[1] else chosen_columns(B, part.dofs)
             seen = np.flatnonzero(np.diff(own.indptr))
-            own = own if len(seen) == len(result) else chosen_rows(own, seen)
+            own = own if len(seen) == rows else chosen_rows(own, seen)
             half = own @ part.inverse.T  # the inverse is as large as what is made of it, like all below
             half = np.ascontiguousarray(half.T)
             moved = own @ half
             del half
-            if len(seen) == len(result):
+            if len(seen) == rows and not result.size:
+                result = moved
+                continue
+            result = result if result.size else np.zeros((rows, rows))
+            if len(seen) == rows:
                 result += moved
             else:
                 result[np.ix_(seen, seen)] += moved
@@ -155,6 +159,8 @@ def independent(matrix: Array) -> list[IntArray]:
         new = np.array([int(np.argmax(left))])
         while len(new):
             block[new] = True
+            if block[left].all():
+                break
             new = np.flatnonzero((matrix[new] != 0.0).any(axis=0) & ~block)
         blocks.append(np.flatnonzero(block))
         left &= ~block
@@ -171,7 +177,7 @@ def _block(stiffness: Array, dofs: IntArray, rigid: Array, size: float) -> BodyB
         Q, triangle, _ = scipy.linalg.qr(rigid, mode="economic", pivoting=True)
         left = np.abs(np.diag(triangle))
         Q = Q[:, : np.count_nonzero(left > DEPENDENT * left[0])]
-        matrix += size * (Q @ Q.T)
+        add_product(matrix, size * Q, Q.T)
     failed = cholesky(matrix)
     if failed:
         raise np.linalg.LinAlgError(f"{failed}-th leading minor of the array is not positive definite")

@@ -56,14 +56,14 @@ def at_peaks(output: Output, view: HistoryView) -> Output:
 
 
 def tied_words(view: HistoryView, one: AtNode, other: AtNode) -> str:
-    """Where a largest pressure is that two nodes have.
+    """Where a largest pressure is that two nodes have, in the order of the mesh: rounding decides which is larger.
 
     Parameters
     ----------
     view : the history
     one, other : of the nodes
     """
-    labels = " and ".join(str(view.model.mesh.labels[node.node]) for node in (one, other))
+    labels = " and ".join(str(view.model.mesh.labels[node]) for node in sorted((one.node, other.node)))
     return f"nodes {labels} of '{one.contact}' have the largest pressure alike"
 
 

@@ -26,12 +26,13 @@ from signorini.fem import _kernels
 from signorini.linalg import _front_solves, _fronts, _symbolic
 from signorini.linalg._blas import scratch
 from signorini.linalg._dense_tiles import mirror
+from signorini.linalg._dissection import dissect
 from signorini.linalg._graph import Elimination, Graph, Rows, both_ways, quotient_rows, subgraph
 from signorini.linalg.plan import RELAX, Fronts
 from signorini.model.model import Model
 
 INTERPRETED_NODES = 4000
-"""Nodes of the largest plane model whose loops are interpreted, which takes two seconds; to compile them takes ten."""
+"""Nodes of the largest plane model whose loops are interpreted, three seconds; to compile them takes ten."""
 FIRST_SOLVE = "first solve on this machine: compiling takes ten seconds, once"
 
 
@@ -85,6 +86,7 @@ def calls() -> list[tuple[Any, tuple[object, ...]]]:
         (_symbolic.column_counts, (graph, elimination, small)),
         (_symbolic.postorder, (small,)),
         (_symbolic.elimination_tree, (graph, elimination, 1)),
+        (dissect, (graph, np.zeros((1, 1), np.int32), 1, 1)),
         (subgraph, (graph, 1)),
         (both_ways, (graph,)),
         (quotient_rows, (graph, small, small, small, (0, 1))),

@@ -18,9 +18,8 @@ from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
 from signorini.interface.frames import LEAST_SINE, along_tangents, tangents
 from signorini.interface.hoop import with_hoop
-from signorini.interface.moments import moments_of_rows
 from signorini.interface.pairing import Pairs, Sides, make_pairs
-from signorini.interface.relative_rows import relative_rows
+from signorini.interface.relative_rows import moments_of_rows, relative_rows
 from signorini.law.bound import Bound
 from signorini.law.closure import Borne, PairClosure
 from signorini.law.cohesion import Bonds, PairCohesion, bonded

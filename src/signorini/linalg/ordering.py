@@ -17,11 +17,6 @@ from signorini.linalg._dissection import AXES_SIZE, LEAF_SIZE, dissect
 from signorini.linalg._graph import Graph, induced, subgraph
 from signorini.linalg.system import NodeGraph
 
-ORDERED_BY_METIS = 4096
-"""Nodes in the plane up to which METIS orders though their places are known: at most ten milliseconds more, and by size
-alone, so that an answer has the same digits whatever has been compiled before. In space cuts leave more digits of thin
-bodies."""
-
 SHARED_PIECE = 20_000
 """Nodes above which a piece is cut by itself, so that threads share what it leaves: tens of milliseconds of one."""
 
@@ -30,8 +25,7 @@ def nested_dissection(graph: NodeGraph) -> Int32Array:
     """Order the interior nodes so that few entries fill in.
 
     Where the places of the nodes are known, by cuts across them (`_dissection`), which on meshes is several times
-    faster than METIS at about the same fill (`benchmarks/ordering.py`); otherwise by METIS, and small graphs of the
-    plane too: it takes milliseconds, and a first run need not compile the cuts.
+    faster than METIS at about the same fill (`benchmarks/ordering.py`); otherwise by METIS.
 
     Returns
     -------
@@ -46,8 +40,7 @@ def nested_dissection(graph: NodeGraph) -> Int32Array:
     inside = subgraph(graph.edges, graph.interior)
     if len(inside.indices) == 0:
         return np.arange(graph.interior, dtype=np.int32)
-    space = graph.points is not None and graph.points.shape[1] > 2
-    if graph.points is not None and (space or graph.interior > ORDERED_BY_METIS):
+    if graph.points is not None:
         axes, diagonals = _directions(graph.points[: graph.interior])
         with Crew(number_of_threads() if graph.interior > SHARED_PIECE else 1) as crew:
             sorts = [partial(np.argsort, direction, kind="stable") for direction in (*axes, *diagonals)]

@@ -22,7 +22,7 @@ from signorini.friction.history.plane.driven_pivots import drive
 from signorini.friction.history.plane.find_rates import find_rates
 from signorini.friction.history.plane.jump import explain
 from signorini.friction.history.plane.rate_law import CORNER, INSIDE, RateLaw, weight
-from signorini.friction.history.plane.responses import MISFIT_ROUNDING, Responses
+from signorini.friction.history.plane.responses import Responses
 from signorini.friction.history.plane.state_inverse import SingularState
 from signorini.friction.history.rates import MARGIN, RATE_TOL, NoRates, Rates, widths_of_zero
 from signorini.friction.history.segment import Breakpoint, Segment
@@ -243,7 +243,7 @@ class PlaneFollower(PathFollower):
         after = self._lawful(b, h, r)
         residual = self._certificate(after)
         size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
-        if residual * (self.problem.scale or 1.0) > MISFIT_ROUNDING * size:
+        if residual * (self.problem.scale or 1.0) > self.responses.rounding * size:
             after = self._lawful(b, *self._afresh(b))
             residual = self._certificate(after)
         return after, residual

@@ -53,7 +53,8 @@ def joined(problem: ContactProblem, first: IntArray) -> ContactProblem | None:
         basis = make_basis(seen(image.R))
     except np.linalg.LinAlgError:
         return None
-    A, resultant = seen(seen(image.A).T).T, basis.coefficients(image.R.T @ problem.b)
+    A = np.ascontiguousarray(seen(seen(image.A).T).T)
+    resultant = basis.coefficients(image.R.T @ problem.b)
     free = seen(problem.free_motion()) - basis.project(A) @ resultant
     few = InterfaceOperator.of_compliance(A, seen(problem.motions), basis.R)
     assert not isinstance(problem.friction, Bound)

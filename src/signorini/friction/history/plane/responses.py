@@ -23,8 +23,8 @@ DRIFT = 1e-12
 Changes of an inverse add up from state to state; what is left stays far below the 1e-8 that a certificate allows.
 """
 
-MISFIT_ROUNDING = 2e-15
-"""Error of a response, relative to its largest entry, that is not refined."""
+_MISFIT_ROUNDING = 2e-15  # of the largest entry of a response: an error that is not refined, of a few pairs
+_FEW_PAIRS = 50  # pairs up to which it is that; of more in proportion, as sums of so many terms are rounded
 
 
 class Responses:
@@ -38,6 +38,7 @@ class Responses:
     ----------
     inverse : of the last state
     pivots : states tried so far
+    rounding : error of a response, relative to its largest entry, that is not refined
 
     Examples
     --------
@@ -55,6 +56,7 @@ class Responses:
         self.problem = problem
         self.inverse = StateInverse(problem)
         self.pivots = 0
+        self.rounding = _MISFIT_ROUNDING * max(1.0, problem.pairs / _FEW_PAIRS)
         self._state: IntArray | None = None
 
     def free(self, b: Array) -> Array:
@@ -118,7 +120,7 @@ class Responses:
         """
         error = self.problem.misfit(h, r, b)
         size = max(np.abs(part).max(initial=0.0) for part in (b, h, r))
-        if np.abs(error).max(initial=0.0) > MISFIT_ROUNDING * size:
+        if np.abs(error).max(initial=0.0) > self.rounding * size:
             dh, dr = self.respond(state, self.free(error))
             return h + dh, r + dr
         return h, r

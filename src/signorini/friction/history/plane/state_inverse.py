@@ -14,23 +14,18 @@ from signorini.arrays import Array, IntArray
 from signorini.friction.linear import SINGULAR
 from signorini.friction.problem import ContactProblem
 from signorini.law.states import OPEN, STICK
-from signorini.linalg.shared_dense import (
-    add_product,
-    cholesky,
-    factorise_with_pivots,
-    inverse_of_cholesky,
-    inverse_of_factors,
-    product,
-)
+from signorini.linalg.changed_inverse import ChangedInverse
+from signorini.linalg.shared_dense import inverse_of_factors, product
 
 PIVOT_TOL = 1e-9
-"""Pivot, relative to what cancels in it, below which the system is inverted afresh."""
+"""Pivot, relative to what cancels in it, below which the system is factorised afresh."""
 
 REFRESH = 400
-"""Changes of state after which the system is inverted afresh."""
+"""Changes of state after which the system is factorised afresh."""
 
-ROOM = 64
-"""Unknowns that an inverse may grow by before it is moved to larger memory."""
+
+_SCATTERED = 3
+"""Forces of all to one that acts up to which a product reads all of the compliance: gathered rows are written, too."""
 
 
 class SingularState(Exception):
@@ -47,7 +42,7 @@ class StateInverse:
     Attributes
     ----------
     slope : (n,) tangential per normal force of slipping pairs, 0 of others
-    factorisations, updates : inversions afresh and changes by one unknown so far
+    factorisations, updates : factorisations afresh and changes by one unknown so far
 
     Examples
     --------
@@ -62,13 +57,11 @@ class StateInverse:
     """
 
     def __init__(self, problem: ContactProblem) -> None:
-        A, self._motions = problem.image.A, problem.image.R
-        self._forces = np.hstack([A, self._motions])  # what all equations see of each, in rows
-        equations = self._forces.shape[1]
+        self._A, self._motions = problem.image.A, problem.image.R
+        equations = sum(self._motions.shape)
         self._bound, self._n = problem.pieces, problem.pairs
         self._state: IntArray | None = None
-        self._columns = np.empty((equations, equations), order="F")  # of the unknowns, as all equations see them
-        self._inverse = np.empty((0, 0), order="F")  # with room to grow
+        self._inverse = ChangedInverse(np.empty((0, 0), order="F"))
         self._place = np.full(equations, -1)  # of an unknown among those of the state
         self._list = np.empty(equations, dtype=np.int64)
         self._count = 0
@@ -88,7 +81,7 @@ class StateInverse:
     @property
     def matrix(self) -> Array:
         """(m, m) The inverse of the present state: a view, rows and columns by the places of the unknowns."""
-        return self._inverse[: self._count, : self._count]
+        return self._inverse.whole
 
     @property
     def place(self) -> IntArray:
@@ -97,7 +90,14 @@ class StateInverse:
 
     def seen(self, x: Array) -> Array:
         """(2n + k,) What all equations see of unknowns, (m,)."""
-        return product(self._columns[:, : self._count], x)
+        n, full = self._n, np.zeros(self.rows)
+        full[self.unknowns] = x
+        full[n : 2 * n] += self.slope * full[:n]
+        forces, motion = full[: 2 * n], full[2 * n :]
+        acting = np.flatnonzero(forces)
+        scattered = _SCATTERED * len(acting) < 2 * n
+        moved = forces[acting] @ self._A[acting] if scattered else product(self._A, forces)
+        return np.concatenate([moved + self._motions @ motion, self._motions.T @ forces])
 
     def move_to(self, state: IntArray) -> None:
         """Make it the inverse of another state.
@@ -113,7 +113,7 @@ class StateInverse:
             if few and self._change(state):
                 self._state = state.copy()
                 return
-        self._invert(state)
+        self._factorise(state)
 
     def solve(self, free: Array) -> tuple[Array, Array]:
         """The (m,) unknowns x that bring their equations to zero, and ``free + columns x``, what all equations see.
@@ -122,10 +122,10 @@ class StateInverse:
         ----------
         free : (2n + k,) what the equations see of a load alone
         """
-        x = -product(self.matrix, free[self.unknowns])
+        x = -self._inverse.times(free[self.unknowns])
         return x, free + self.seen(x)
 
-    def _invert(self, state: IntArray) -> None:
+    def _factorise(self, state: IntArray) -> None:
         self._state, self._age = None, 0
         self.factorisations += 1
         n = self._n
@@ -136,19 +136,17 @@ class StateInverse:
         self._list[:m] = np.concatenate([forces, np.arange(2 * n, len(self._list))])
         self._place[:] = -1
         self._place[self.unknowns] = np.arange(m)
-        columns = self._columns[:, :m]
-        np.take(self._forces, forces, axis=0, out=columns.T[: len(forces)], mode="clip")
-        columns[: 2 * n, len(forces) :], columns[2 * n :, len(forces) :] = self._motions, 0.0
+        matrix = np.zeros((m, m), order="F")
+        matrix.T[: len(forces), : len(forces)] = self._A[np.ix_(forces, forces)]
         slips = np.flatnonzero(self.slope[closed])
-        columns[:, slips] += (self._forces[n + closed[slips]] * self.slope[closed[slips], None]).T
-        self._inverse = np.zeros((m + ROOM, m + ROOM), order="F")
-        if m:
-            matrix = np.take(columns.T, self.unknowns, axis=1).T  # by columns: LAPACK overwrites it
-            symmetric = not len(slips) and m == len(forces)
-            if symmetric:
-                self._inverse[:m, :m] = _inverse_of_compliance(matrix)
-            else:
-                _invert(matrix, self._inverse[:m, :m])
+        pairs, share = closed[slips], self.slope[closed[slips]]
+        matrix.T[slips, : len(forces)] += share[:, None] * self._A[np.ix_(n + pairs, forces)]
+        matrix[: len(forces), len(forces) :] = self._motions[forces]
+        matrix[len(forces) :, : len(forces)] = self._motions[forces].T
+        matrix[len(forces) :, slips] += share * self._motions[n + pairs].T
+        self._inverse = ChangedInverse(matrix, symmetric=not len(slips) and m == len(forces))
+        if self._inverse.condition < SINGULAR:
+            raise SingularState
         self._state = state.copy()
 
     def _change(self, state: IntArray) -> bool:
@@ -176,22 +174,20 @@ class StateInverse:
         if not len(new):
             return True
         m, n, known, k = self._count, self._n, self.unknowns, len(new)
-        self._grow(m + k)
-        columns = self._columns[:, m : m + k]
-        columns[:] = self._forces[new].T
+        felt = self._felt(new)  # A and R are symmetric: what forces of theirs move is what their equations see
+        columns, rows = felt.copy(), felt[:, known]
         normal = np.flatnonzero(new < n)
-        if self.slope[new[normal]].any():
-            columns[:, normal] += (self._forces[n + new[normal]] * self.slope[new[normal], None]).T
-        rows = self._columns[new, :m]
-        u, v = self._inverse[:m, :m] @ columns[known], rows @ self._inverse[:m, :m]
-        size = max(np.abs(columns[new]).max(), (np.abs(rows) @ np.abs(u)).max(initial=0.0))
-        pivot = _inverted(columns[new] - rows @ u, size)
+        columns[normal] += self.slope[new[normal], None] * self._felt(n + new[normal])
+        normal = np.flatnonzero(known < n)
+        rows[:, normal] += felt[:, n + known[normal]] * self.slope[known[normal]]
+        u = self._inverse.times(columns[:, known].T)
+        v = self._inverse.transposed_times(rows.T).T
+        size = max(np.abs(columns[:, new]).max(), (np.abs(rows) @ np.abs(u)).max(initial=0.0))
+        pivot = _inverted(columns[:, new].T - rows @ u, size)
         if pivot is None:
             return False
-        u = u @ pivot
-        self._add_product(u, v)
-        H = self._inverse
-        H[:m, m : m + k], H[m : m + k, :m], H[m : m + k, m : m + k] = -u, -(pivot @ v), pivot
+        self._inverse.border(k)
+        self._add_product(np.vstack([u @ pivot, -pivot]), np.hstack([v, -np.eye(k)]))
         self._list[m : m + k], self._place[new], self._count = new, np.arange(m, m + k), m + k
         return True
 
@@ -199,18 +195,15 @@ class StateInverse:
         """Take unknowns and their equations out; the last ones take their places."""
         if not len(old):
             return True
-        H, places, left = self._inverse[: self._count, : self._count], self._place[old], self._count - len(old)
+        places, left = self._place[old], self._count - len(old)
         out = np.zeros(self._count, dtype=np.bool_)
         out[places] = True
         free, last = np.flatnonzero(out[:left]), left + np.flatnonzero(~out[left:])
         order = np.arange(left)
         order[free] = last
-        u, v = H[:, places], H[places]
+        u, v = self._inverse.columns(places), self._inverse.rows(places)
         block, u, v = u[places], u[order], v[:, order]
-        for i, j in zip(free, last, strict=True):
-            H[:, i], self._columns[:, i] = H[:, j], self._columns[:, j]
-        for i, j in zip(free, last, strict=True):
-            H[i] = H[j]
+        self._inverse.keep(order)
         self._list[free] = self._list[last]
         self._place[old] = -1
         self._place[self._list[free]], self._count = free, left
@@ -226,56 +219,32 @@ class StateInverse:
         pairs, share = pairs[share != 0.0], share[share != 0.0]
         if not len(pairs):
             return True
-        m, n, H = self._count, self._n, self._inverse
+        n, inverse = self._n, self._inverse
         i, t = self._place[pairs], self._place[n + pairs]
         self.slope[pairs] += share
-        change = (self._forces[n + pairs] * share[:, None]).T
-        self._columns[:, i] += change
         held = t >= 0  # what is left of the tangential force is an unknown
-        H[t[held], :m] -= share[held, None] * H[i[held], :m]
+        if held.any():
+            moved = np.zeros((self._count, np.count_nonzero(held)))
+            moved[t[held], np.arange(moved.shape[1])] = -share[held]
+            self._add_product(moved, inverse.rows(i[held]))
         if held.all():
             return True
-        i, change = i[~held], change[:, ~held]
-        u = H[:m, :m] @ change[self.unknowns]
+        i = i[~held]
+        u = inverse.times((self._felt(n + pairs[~held])[:, self.unknowns] * share[~held, None]).T)
         pivot = _inverted(np.eye(len(i)) + u[i], max(1.0, float(np.abs(u).max())))
         if pivot is None:
             return False
-        self._add_product(u @ -pivot, H[i, :m])
+        self._add_product(u @ -pivot, inverse.rows(i))
         return True
 
+    def _felt(self, rows: IntArray) -> Array:
+        """(k, 2n + motions) What the equations of some forces see of all forces, and of the rigid motions."""
+        return np.hstack([self._A[rows], self._motions[rows]])
+
     def _add_product(self, u: Array, v: Array) -> None:
-        """Change the inverse by ``u v``, in place."""
-        m, k = u.shape
-        self.updates += k
-        if m:
-            padded = np.zeros((len(self._inverse), k), order="F")
-            padded[:m] = u
-            add_product(self._inverse[:, :m], padded, v)
-
-    def _grow(self, size: int) -> None:
-        """Room for so many unknowns."""
-        if size > len(self._inverse):
-            m = self._count
-            larger = np.zeros((size + ROOM, size + ROOM), order="F")
-            larger[:m, :m] = self._inverse[:m, :m]
-            self._inverse = larger
-
-
-def _invert(matrix: Array, into: Array) -> None:
-    """Put the inverse of a state's system, which is overwritten, into a matrix; SingularState where there is none."""
-    norm = float(np.abs(matrix).sum(axis=0).max())
-    order, failed = factorise_with_pivots(matrix)
-    if failed or lapack.dgecon(matrix, norm)[0] < SINGULAR:
-        raise SingularState
-    inverse_of_factors(matrix, order, into)
-
-
-def _inverse_of_compliance(matrix: Array) -> Array:
-    """The inverse where all that is closed sticks, for half the operations: symmetric and positive definite."""
-    norm = float(np.abs(matrix).sum(axis=0).max())
-    if cholesky(matrix) or lapack.dpocon(matrix, norm, uplo="L")[0] < SINGULAR:
-        raise SingularState
-    return inverse_of_cholesky(matrix, overwrite=True)
+        """Change the inverse by ``u v``."""
+        self.updates += u.shape[1]
+        self._inverse.add(u, v)
 
 
 def _inverted(block: Array, size: float) -> Array | None:
