@@ -92,9 +92,21 @@ class Constraints:
         """(z,) The free displacements in some of all dofs (dofs,)."""
         return displacement[self.leaders]
 
-    def of_free(self, motions: Array) -> Array:
-        """(z, k) The free displacements in motions (dofs, k) of all dofs."""
-        return motions[self.leaders]
+    def spread_free(self, free: IntArray, values: Array) -> Array:
+        """(z,) Values at some free displacements (k,), each once, zero elsewhere, where vectors of all of them are."""
+        result = np.zeros(self.transform.shape[1])
+        result[free] = values
+        return result
+
+    def carried(self, rigid: Motions, by: Array) -> Array:
+        """(dofs,) Displacements by combinations (k,) of k rigid motions, where vectors of all displacements are."""
+        found: Array = rigid.matrix @ by
+        return found
+
+    def of_free(self, rigid: Motions, by: Array) -> Array:
+        """(z, m) The free displacements in combinations (k, m) of k rigid motions."""
+        found: Array = (rigid.matrix @ by)[self.leaders]
+        return found
 
     def resultants(self, rigid: Motions, forces: Array) -> Array:
         """(k,) Work of forces (dofs,) on k rigid motions."""
