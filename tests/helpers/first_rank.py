@@ -17,10 +17,9 @@ import numpy as np
 
 import signorini as sg
 from signorini.distributed.ranks import Team, lend
+from signorini.engine import prepare, validity_notes
 from signorini.engine import solve as following
-from signorini.engine import validity_notes
-from signorini.engine.prepare import Prepared
-from signorini.fem import loads
+from signorini.fem import loads, supports
 from signorini.meshing.cut import cut
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
@@ -150,7 +149,7 @@ class Watch:
             self.elsewhere -= 1
 
     def without(self, kind, name):
-        """Leave out what a method of a class does."""
+        """Leave out what a function of a class or module does."""
         method = getattr(kind, name)
 
         def left_out(*given, **options):
@@ -196,7 +195,9 @@ def main():
             lend(model.mesh)
             watch, kept = Watch(model.mesh.number_of_nodes), solver_on_ranks.kept_on_ranks
             watch.without(Team, "_done")
-            watch.without(Prepared, "ready")  # a mesh that is cut anew for other supports is at hand
+            for made in ("transform_of", "selection"):  # of other supports: which displacements are free, and ones
+                watch.without(supports, made)
+            watch.without(prepare, "resistance")  # what they hold of rigid motions: one is the side of the column
 
             def kept_on_ranks(*given):
                 sys.setprofile(None)

@@ -298,7 +298,7 @@ def _constraints(prepared: Prepared, released: frozenset[str]) -> Constraints:
     """Under some of the supports; the prepared ones where those are they."""
     if released == prepared.released:
         return prepared.constraints
-    return make_constraints(prepared.space, prepared.model, without=released)
+    return make_constraints(prepared.space, prepared.model, without=released, spread=prepared.constraints.spread)
 
 
 def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[FollowedPart, list[float]]:
