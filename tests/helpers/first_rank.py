@@ -66,7 +66,35 @@ def stacked(gap=0.0, **more):
     return sg.Model(mesh, bodies=bodies, **(given | more))
 
 
+def strip():
+    """A tall strip that is pressed on a leaning plane, and turned aside."""
+    return sg.Model(
+        sg.rectangle(x=np.linspace(0.0, 1.0, 5).tolist(), y=np.linspace(0.0, 30.0, 601).tolist()),
+        bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.3))],
+        supports=[sg.Support("top", u=(0.001, -0.3))],
+        contacts=[sg.Contact("bottom", Plane((0.0, -0.01), (0.05, 1.0)), friction=0.3)],
+        steps=[sg.Step(path="exact")],
+    )
+
+
+def solved(model, backend):
+    """The history of a model."""
+    return following.solve(model, backend=backend, raise_on_failure=False)
+
+
+def derived(model, backend):
+    """The history of a model, of which was asked how two outputs change with friction, stiffness and gaps."""
+    found = sg.solve(model, backend=backend, tape=True)
+    for output in (sg.pressure("bottom").peak, sg.displacement(2000, along=(0.0, 1.0))):
+        change = found.derivative(output)
+        assert change.value
+        assert all(np.any(by) for by in (change.friction["bottom"], change.E["block"], change.gap["bottom"]))
+    return found
+
+
+ASKED = {"derivatives": derived}
 MODELS = {
+    "derivatives": strip,
     "bolted column": bolted,
     "column": column,
     "pushed far": lambda: column(supports=[sg.Support("top", u=(0, 0, -6.0))], steps=[sg.Step(increments=1)]),
@@ -206,7 +234,7 @@ def main():
                 return found
 
             solver_on_ranks.kept_on_ranks = kept_on_ranks
-            history = following.solve(model, backend=backend, raise_on_failure=False)
+            history = ASKED.get(name, solved)(model, backend)
             sys.setprofile(None)
             found["watched"] = sorted(watch.found)
             found["end"] = large({"model": model, "history": history}, model.mesh.number_of_nodes)

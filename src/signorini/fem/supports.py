@@ -12,7 +12,7 @@ from typing import Protocol, Self
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, elsewhere, index_type
+from signorini.arrays import Array, BoolArray, Data, IntArray, elsewhere, index_type
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
@@ -71,7 +71,7 @@ class Constraints:
         """(dofs,) Zeros, where vectors of all displacements are: here, or on the ranks of MPI."""
         return np.zeros(len(self.free))
 
-    def placed(self, values: Array) -> Array:
+    def placed(self, values: Data) -> Data:
         """Values (dofs,), which nobody changes, where vectors of all displacements are."""
         return values
 
