@@ -8,6 +8,7 @@ the prepared model, the states and the history to them; what the first rank hold
 import gc
 import json
 import sys
+import tempfile
 import types
 from contextlib import contextmanager
 from dataclasses import replace
@@ -16,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import signorini as sg
+from signorini.clock import Clock
 from signorini.distributed.ranks import Team, lend
 from signorini.engine import prepare, validity_notes
 from signorini.engine import solve as following
@@ -24,6 +26,8 @@ from signorini.meshing.cut import cut
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 from signorini.model.obstacle import Plane
+from signorini.output.folder import Publisher
+from signorini.output.rank_files import FieldsOnRanks
 
 HERE = Path(sg.__file__).parent
 _APART = (type, types.ModuleType, Team, str, bytes, int, float)
@@ -78,7 +82,7 @@ def strip():
 
 
 def solved(model, backend):
-    """The history of a model."""
+    """The history of a model, whatever ends it."""
     return following.solve(model, backend=backend, raise_on_failure=False)
 
 
@@ -93,6 +97,7 @@ def derived(model, backend):
 
 
 ASKED = {"derivatives": derived}
+FACTORISED = ("derivatives", "exact path", "rests, approaches", "switched off")  # whatever they are asked for
 MODELS = {
     "derivatives": strip,
     "bolted column": bolted,
@@ -234,7 +239,10 @@ def main():
                 return found
 
             solver_on_ranks.kept_on_ranks = kept_on_ranks
+            watch.without(FieldsOnRanks, "__init__")  # it sends ranks their cells
             history = ASKED.get(name, solved)(model, backend)
+            with tempfile.TemporaryDirectory() as folder:
+                Publisher(folder=Path(folder), clock=Clock(), started=0.0).publish(history)
             sys.setprofile(None)
             found["watched"] = sorted(watch.found)
             found["end"] = large({"model": model, "history": history}, model.mesh.number_of_nodes)
