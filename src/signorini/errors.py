@@ -7,6 +7,7 @@ import difflib
 from collections.abc import Iterable
 from typing import Any
 
+from signorini.arrays import elsewhere, stored
 from signorini.outcome import Outcome
 
 Where = tuple[str | int, ...]
@@ -57,6 +58,7 @@ def told(sentence: str, *, remedy: str = "", evidence: str = "") -> str:
     )
 
 
+@elsewhere("motion")
 class SolveFailed(SignoriniError):
     """No certified solution: carries the reason and whatever was found before.
 
@@ -97,7 +99,7 @@ class SolveFailed(SignoriniError):
 
     def saying(self, words: str) -> SolveFailed:
         """This failure with words more at the end of its sentence."""
-        said = SolveFailed(f"{self.sentence}; {words}{self.details}", status=self.status, motion=self.motion)
+        said = SolveFailed(f"{self.sentence}; {words}{self.details}", status=self.status, motion=stored(self, "motion"))
         said.solution, said.reached = self.solution, self.reached
         said.hopeless, said.unsettled, said.mechanisms = self.hopeless, self.unsettled, self.mechanisms
         return said

@@ -114,6 +114,13 @@ def test_well_posedness_and_derivatives_choose_factors():
     assert two.backend == "mumps"
     assert two.wellposedness.words == one.wellposedness.words
     np.testing.assert_allclose(two.sensitivities().per_cent, one.sensitivities().per_cent, rtol=1e-9, atol=1e-11)
+    changes = [found.derivative(sg.displacement(60, along=(0, 1))) for found in (one, two)]
+    for by in ("value", "friction", "E", "load", "gap"):
+        here, there = (getattr(change, by) for change in changes)
+        here, there = (
+            np.concatenate([*map(np.ravel, part.values())]) if by != "value" else part for part in (here, there)
+        )
+        np.testing.assert_allclose(there, here, rtol=1e-8, atol=1e-10 * np.abs(here).max())
     places = [found.derivative(sg.pressure(model.contacts[0].label).peak).nodes for found in (one, two)]
     np.testing.assert_allclose(places[1], places[0], rtol=0, atol=1e-9 * np.abs(places[0]).max())
 

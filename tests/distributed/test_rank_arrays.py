@@ -76,6 +76,8 @@ def test_some_entries_are_fetched_and_put_by_their_numbers(cut):
     put = cut.spread(np.array([9, 2]), np.array([5.0, -1.0]))
     np.testing.assert_array_equal(np.flatnonzero(put), [2, 9])
     assert put[9] == 5.0
+    assert (np.argmax(a), np.argmin(a)) == (x.argmax(), x.argmin())
+    assert (np.argmax(put > 0.0), np.argmin(np.isfinite(put))) == (9, 0)  # of equal ones the first
 
 
 def test_whatever_else_is_asked_is_given_all_of_it(cut):

@@ -8,22 +8,28 @@ the prepared model, the states and the history to them; what the first rank hold
 import gc
 import json
 import sys
-import traceback
+import tempfile
 import types
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 import signorini as sg
-from signorini.distributed.rank_arrays import ArrayOnRanks
+from signorini.clock import Clock
 from signorini.distributed.ranks import Team, lend
+from signorini.engine import prepare, validity_notes
 from signorini.engine import solve as following
-from signorini.engine import validity_notes
+from signorini.fem import loads, supports
 from signorini.meshing.cut import cut
 from signorini.meshing.solid import box
+from signorini.model.mesh import join
 from signorini.model.obstacle import Plane
+from signorini.output.folder import Publisher
+from signorini.output.rank_files import FieldsOnRanks
 
+HERE = Path(sg.__file__).parent
 _APART = (type, types.ModuleType, Team, str, bytes, int, float)
 
 
@@ -51,7 +57,49 @@ def bolted():
     return replace(model, mesh=mesh, bolts=[sg.Bolt("section", force=-1e-4, name="bolt")], steps=steps)
 
 
+def stacked(gap=0.0, **more):
+    """A column on a block, tied to it, or above it and held by nothing else."""
+    side = np.linspace(0.0, 1.0, 3)
+    foot = box(x=side, y=side, z=np.linspace(-1.0, 0.0, 3))
+    mesh = join({"foot": foot, "column": box(x=side, y=side, z=np.linspace(gap, 30.0 + gap, 401))})
+    given = {
+        "supports": [sg.Support("foot.bottom", u=(0, 0, 0))],
+        "contacts": [sg.Contact("column.bottom", "foot.top", friction=0.3, facets=8)],
+    }
+    bodies = [sg.Body(name, sg.Elastic(E=1.0, nu=0.3)) for name in ("foot", "column")]
+    return sg.Model(mesh, bodies=bodies, **(given | more))
+
+
+def strip():
+    """A tall strip that is pressed on a leaning plane, and turned aside."""
+    return sg.Model(
+        sg.rectangle(x=np.linspace(0.0, 1.0, 5).tolist(), y=np.linspace(0.0, 30.0, 601).tolist()),
+        bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.3))],
+        supports=[sg.Support("top", u=(0.001, -0.3))],
+        contacts=[sg.Contact("bottom", Plane((0.0, -0.01), (0.05, 1.0)), friction=0.3)],
+        steps=[sg.Step(path="exact")],
+    )
+
+
+def solved(model, backend):
+    """The history of a model, whatever ends it."""
+    return following.solve(model, backend=backend, raise_on_failure=False)
+
+
+def derived(model, backend):
+    """The history of a model, of which was asked how two outputs change with friction, stiffness and gaps."""
+    found = sg.solve(model, backend=backend, tape=True)
+    for output in (sg.pressure("bottom").peak, sg.displacement(2000, along=(0.0, 1.0))):
+        change = found.derivative(output)
+        assert change.value
+        assert all(np.any(by) for by in (change.friction["bottom"], change.E["block"], change.gap["bottom"]))
+    return found
+
+
+ASKED = {"derivatives": derived}
+FACTORISED = ("derivatives", "exact path", "rests, approaches", "switched off")  # whatever they are asked for
 MODELS = {
+    "derivatives": strip,
     "bolted column": bolted,
     "column": column,
     "pushed far": lambda: column(supports=[sg.Support("top", u=(0, 0, -6.0))], steps=[sg.Step(increments=1)]),
@@ -66,6 +114,24 @@ MODELS = {
     "exact path": lambda: column(
         contacts=[sg.Contact("bottom", Plane((0, 0, 0), (0, 0, 1)), friction=0.3, facets=8)],
         steps=[sg.Step(path="exact")],
+    ),
+    "tied": lambda: stacked(
+        supports=[sg.Support("foot.bottom", u=(0, 0, 0)), sg.Support("column.top", u=(0, 0.001, -0.01))],
+        contacts=[sg.Contact("column.bottom", "foot.top", friction="tied")],
+        steps=[sg.Step(increments=2)],
+    ),
+    "rests, approaches": lambda: stacked(
+        0.5,
+        loads=[sg.Load("foot.left", pressure=1e-4, name="aside"), sg.Load("column.top", pressure=1e-4)],
+        steps=[
+            sg.Step(name="aside", path="exact", scale={"aside": 1.0}),
+            sg.Step(name="down", path="exact", scale={"column.top": 1.0}),
+        ],
+    ),
+    "pulled away": lambda: stacked(loads=[sg.Load("column.top", pressure=-1e-4)], steps=[sg.Step(increments=1)]),
+    "switched off": lambda: column(
+        contacts=[sg.Contact("bottom", Plane((0, 0, 0), (0, 0, 1)), friction=0.3, facets=8)],
+        steps=[sg.Step(name="press", path="exact"), sg.Step(name="off", path="exact", inactive=["bottom"])],
     ),
     "supports that change": lambda: column(
         steps=[
@@ -97,30 +163,55 @@ def large(roots, count):
     return sorted(found)
 
 
-def counted(found, count):
-    """Note who has all displacements, or forces on them, sent to the first rank from now on."""
-    whole, chosen = ArrayOnRanks.whole, ArrayOnRanks.__getitem__
+class Watch:
+    """Notes functions of ours that have, when they return, so many numbers that are not whole in an array.
 
-    def noted(array, entries):
-        if not array.home and array.dtype.kind == "f" and entries >= count:
-            frames = traceback.extract_stack()[:-2]
-            found.append([f"{Path(each.filename).stem}.{each.name}" for each in frames if "signorini" in each.filename])
+    What the first rank does as one of the ranks is left out, and square matrices, which are of the interface.
+    """
 
-    def asked_whole(array):
-        noted(array, len(array))
-        return whole(array)
+    def __init__(self, count):
+        self.found, self.count, self.elsewhere = set(), count, 0
 
-    def asked_some(array, index):
-        noted(array, 0 if isinstance(index, slice) else np.size(index))
-        return chosen(array, index)
+    @contextmanager
+    def away(self):
+        """Look elsewhere in the block."""
+        self.elsewhere += 1
+        try:
+            yield
+        finally:
+            self.elsewhere -= 1
 
-    ArrayOnRanks.whole, ArrayOnRanks.__getitem__ = asked_whole, asked_some
+    def without(self, kind, name):
+        """Leave out what a function of a class or module does."""
+        method = getattr(kind, name)
+
+        def left_out(*given, **options):
+            with self.away():
+                return method(*given, **options)
+
+        setattr(kind, name, left_out)
+
+    def __call__(self, frame, event, answer):
+        code = frame.f_code
+        if event == "return" and not self.elsewhere and HERE in Path(code.co_filename).parents:
+            held = [*frame.f_locals.items(), ("what it returns", answer)]
+            names = [name for name, value in held if self.large(value)]
+            self.found |= {f"{Path(code.co_filename).stem}.{code.co_name}: {name}" for name in names}
+
+    def large(self, value):
+        """Whether something is such an array, or lists one."""
+        if isinstance(value, list | tuple | dict):
+            return any(map(self.large, value.values() if isinstance(value, dict) else value))
+        array = isinstance(value, np.ndarray) and value.dtype.kind == "f" and value.size >= self.count
+        return array and not (value.ndim == 2 and len(value) == value.shape[1])
 
 
 def main():
-    """Print the ways, step by step, and at the end; and who has asked for all displacements."""
+    """Print the ways, step by step, and at the end; and who has had all displacements once bodies were on the ranks."""
+    from signorini.engine import solver_on_ranks  # needs PETSc
+
     backend, name = sys.argv[1:]
-    validity_notes._AT_ONCE = 100  # nodes: the mesh is small
+    validity_notes._AT_ONCE, loads._AT_ONCE = 100, 20  # nodes and cells: the mesh is small
     found = {}
     told = following.step_result
 
@@ -135,10 +226,25 @@ def main():
         if first:
             model = MODELS[name]()
             lend(model.mesh)
-            asked = found["asked"] = []
-            counted(asked, model.mesh.number_of_nodes)
-            history = following.solve(model, backend=backend)
-            found["asked"] = asked.copy()
+            watch, kept = Watch(model.mesh.number_of_nodes), solver_on_ranks.kept_on_ranks
+            watch.without(Team, "_done")
+            for made in ("transform_of", "selection"):  # of other supports: which displacements are free, and ones
+                watch.without(supports, made)
+            watch.without(prepare, "resistance")  # what they hold of rigid motions: one is the side of the column
+
+            def kept_on_ranks(*given):
+                sys.setprofile(None)
+                found = kept(*given)
+                sys.setprofile(watch)
+                return found
+
+            solver_on_ranks.kept_on_ranks = kept_on_ranks
+            watch.without(FieldsOnRanks, "__init__")  # it sends ranks their cells
+            history = ASKED.get(name, solved)(model, backend)
+            with tempfile.TemporaryDirectory() as folder:
+                Publisher(folder=Path(folder), clock=Clock(), started=0.0).publish(history)
+            sys.setprofile(None)
+            found["watched"] = sorted(watch.found)
             found["end"] = large({"model": model, "history": history}, model.mesh.number_of_nodes)
             print(json.dumps(found))
 

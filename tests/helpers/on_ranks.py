@@ -23,6 +23,7 @@ from signorini.gallery.sectors import ring_on_shaft
 from signorini.gallery.twisted import ring_under_torque
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
+from tests.helpers import first_rank
 
 
 def in_increments(model):
@@ -148,6 +149,7 @@ CONDENSED = {
     "facets": lambda: section(facets=8),
     "two coefficients": lambda: section(friction=(0.3, 0.2), friction_axis=(1.0, 0.0, 0.0)),
     "a rigid body that contact alone holds": rolled_block,
+    "a body that rests, and approaches": first_rank.MODELS["rests, approaches"],
 }
 """Models that ask for the condensed interface by themselves."""
 

@@ -15,6 +15,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from signorini.arrays import stored
 from signorini.blas_threads import one_thread
 from signorini.checks import number
 from signorini.cli.progress import progress
@@ -106,7 +107,7 @@ def _told(
             print(history_table(history, failure=False), end="\n\n")
         for note in deck.notes:
             print(textwrap.fill(f"deck: {note}", 112), end="\n\n")
-        if history.escape is not None:
+        if stored(history, "escape") is not None:
             print(f"a picture of how bodies run away: signorini plot {folder} --what escape", end="\n\n")
         print(f"{_listed(files, folder)} in {folder} ({time.perf_counter() - started:.2f} s)")
     if history.solved:

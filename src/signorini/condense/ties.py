@@ -4,14 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.linalg
 import scipy.linalg.lapack
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray
-from signorini.sparse_rows import seen_by
+from signorini.arrays import Array, IntArray, distinct
+from signorini.sparse_rows import chosen_columns, seen_by, transposed
 
 _DEPENDENT = 1e-10  # of the largest: what is left of a row that follows from the others, squared
 
@@ -44,27 +45,29 @@ class Ties:
         """
         return -self.shares(seen_by(self.B, residual))
 
-    def bear(self, forces: Array, residual: Array) -> Array:
-        """What forces of the ties leave of equilibrium, (z,).
+    def pushes(self, forces: Array) -> tuple[IntArray, Array]:
+        """Free displacements (k,) that ties see, and ``B_t^T r`` of forces (t,) there."""
+        numbers, B = self._seen
+        return numbers, transposed(B) @ forces
 
-        Parameters
-        ----------
-        forces : (d, n) of all pairs, among which they are written
-        residual : (z,) what the other forces leave, as of `forces`
-        """
-        tied = self.forces(residual)
-        self.give(forces, tied)
-        left: Array = residual + self.B.T @ tied
-        return left
+    @cached_property
+    def _seen(self) -> tuple[IntArray, sp.csr_array]:
+        """The free displacements that ties see, and B in terms of them alone."""
+        numbers = distinct(self.B.indices)
+        return numbers, chosen_columns(self.B, numbers)
 
     def give(self, forces: Array, values: Array | float) -> None:
         """Write the forces of the ties, (t,) or one for all, among those of all pairs, (d, n)."""
         forces.reshape(-1)[self.rows] = values
 
-    def closing(self, moved: Array) -> Array:
-        """The smallest free displacements z with ``B_t z = -moved``, (z,); moved (t,) is what supports impose."""
-        z: Array = -(self.B.T @ self.shares(moved))
-        return z
+    def closing(self, moved: Array) -> tuple[IntArray, Array]:
+        """The smallest free displacements with ``B_t z = -moved``: numbers and values (k,) of those that are not zero.
+
+        Parameters
+        ----------
+        moved : (t,) what supports impose
+        """
+        return self.pushes(-self.shares(moved))
 
 
 def make_ties(B: sp.csr_array, rows: IntArray) -> Ties:

@@ -67,11 +67,11 @@ def _of_bodies(point: TapePoint, count: int, pull: Array) -> tuple[Array, Array,
     on_free = prepared.constraints.on_free(pull)
     rows, flat = (system.directions, system.pairs), np.zeros(system.directions * system.pairs)
     y = condensed.response.displacement(condensed.reduce(on_free), flat, lambda _: none)
-    rigid = (prepared.motions @ prepared.floating)[prepared.constraints.leaders]
+    rigid = prepared.constraints.of_free(prepared.rigid, prepared.floating)
     v = condensed.travel_transposed(rigid.T @ on_free) if system.motions else flat
     back = condensed.response.displacement(condensed.reduce(np.zeros_like(on_free)), v, lambda _: none)
     of_h, of_r = (np.zeros((system.directions, count)) for _ in range(2))
     of_h[:, system.active] = v.reshape(rows)
-    seen = prepared.interface.motion(prepared.constraints.transform @ (y - back))[:, system.active]
+    seen = prepared.interface.motion(prepared.constraints.displaced(y - back))[:, system.active]
     of_r[:, system.active] = seen - condensed.compliance * v.reshape(rows)
     return of_h, of_r, y, v.reshape(rows)

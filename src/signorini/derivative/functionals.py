@@ -73,13 +73,12 @@ def weights_at_start(output: Output, view: HistoryView, ahead: TapePoint | None)
 def displacement_weights(output: Displacement | Stress, view: HistoryView) -> Array:
     """(dofs,) How an output of bodies changes with displacements."""
     i = view.number(output.load_factor)
-    found, d = np.zeros(view.space.number_of_dofs), view.model.components
+    d, space = view.model.components, view.space
     if isinstance(output, Displacement):
-        found[d * output.node : d * output.node + d] = _along(output.along, d)
-        return found
-    space = view.space
+        constraints = view.points[i].system.prepared.constraints
+        return constraints.spread(space.dofs(np.array(output.node)), _along(output.along, d))
     around = nodes_around(output.node, view)
-    still = np.zeros(space.number_of_dofs)
+    found, still = np.zeros((2, space.number_of_dofs))
     none = stress_at(output, view, still, i)
     for dof in (d * around[:, None] + np.arange(d)).ravel():
         moved = still.copy()
@@ -98,7 +97,8 @@ def _of_bodies(output: Displacement | Stress, view: HistoryView, u: Array, i: in
     """An output of bodies under displacements (dofs,) at a point."""
     if isinstance(output, Stress):
         return stress_at(output, view, u, i)
-    return float(view.space.at_nodes(u)[_node(output.node, view)] @ _along(output.along, view.model.components))
+    moved = u[view.space.dofs(np.array(_node(output.node, view)))]
+    return float(moved @ _along(output.along, view.model.components))
 
 
 def stress_at(output: Stress, view: HistoryView, u: Array, i: int) -> float:
@@ -121,7 +121,7 @@ def stress_at(output: Stress, view: HistoryView, u: Array, i: int) -> float:
 
 
 def _node(node: int, view: HistoryView) -> int:
-    count = len(view.model.mesh.points)
+    count = view.model.mesh.number_of_nodes
     if not 0 <= node < count:
         raise InputError(f"is {node}; expected a node from 0 to {count - 1}", where=("node",))
     return node

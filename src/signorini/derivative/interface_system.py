@@ -174,8 +174,7 @@ class InterfaceSystem:
         """A load or a moving support at factor 1, kept."""
         if name not in self._units:
             prepared, condensed, K = self.prepared, self.condensed, self.prepared.K
-            none = np.zeros(prepared.space.number_of_dofs)
-            forces = prepared.loads.get(name, none)
+            forces = prepared.loads.get(name, prepared.constraints.zeros)
             fixed = load = condensed.reduce(prepared.constraints.on_free(forces)).load
             offset = np.zeros((self.directions, self.pairs))
             if name in prepared.constraints.prescribed:
@@ -196,7 +195,7 @@ class InterfaceSystem:
         """(z,) Free displacements under a load at factor 1 while what is kept of the bodies is held, kept."""
         if name not in self._inside:
             reduced = self.condensed.reduce(self.prepared.constraints.on_free(self.unit(name).forces))
-            self._inside[name] = np.asarray(reduced.expand(np.zeros(self.condensed.factorisation.m)))
+            self._inside[name] = reduced.expand(np.zeros(self.condensed.factorisation.m))
         return self._inside[name]
 
     def free(self, b: Array) -> Array:

@@ -258,7 +258,7 @@ def _substituted(
         moved = still.expand(kept)
         moved[:, :m] += pulling
         for name, factor in zip(names, each, strict=True):
-            moved[:, m:] += system.inside(name)[:, None] * factor
+            moved[:, m:] += np.outer(system.inside(name), factor)
         return moved
 
     def travel(moved: Array) -> Array:

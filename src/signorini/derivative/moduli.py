@@ -20,8 +20,9 @@ from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.modulus_pairs import ModulusPairs
 from signorini.derivative.pair_change import PairChange, between_bodies
 from signorini.derivative.points import TapePoint, factors_of, forces_of, offsets_of
-from signorini.derivative.view import HistoryView, displacements
+from signorini.derivative.view import HistoryView, displacement_at
 from signorini.engine.prepare import Prepared
+from signorini.sparse_rows import chosen_columns, chosen_rows, seen_by
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -135,20 +136,19 @@ class ModulusChange:
     def _on_body(self, point: TapePoint) -> Array:
         """(z,) Elastic forces of the body at a point that do not grow with its modulus."""
         prepared = point.system.prepared
-        forces = prepared.K @ displacements([point])[:, 0]
+        forces = prepared.K @ displacement_at(point)
         for load in prepared.model.loads:
             if load.temperature is not None:
-                forces -= point.load.factors.get(load.label, 0.0) * prepared.loads[load.label]
-        dofs = prepared.space.dofs(np.flatnonzero(self._nodes))
-        own = np.zeros_like(forces)
-        own[dofs] = forces[dofs]
-        return prepared.constraints.on_free(own)
+                forces = forces - point.load.factors.get(load.label, 0.0) * prepared.loads[load.label]
+        inside = np.zeros(prepared.space.number_of_dofs, dtype=np.bool_)
+        inside[prepared.space.dofs(np.flatnonzero(self._nodes))] = True
+        return prepared.constraints.on_free(np.where(prepared.constraints.placed(inside), forces, 0.0))
 
     @cached_property
     def _nodes(self) -> BoolArray:
         """(nodes,) Those of the body."""
         model, cells = self.prepared.model, self.prepared.model.body_of_cells()
-        inside = np.zeros(len(model.mesh.points), dtype=np.bool_)
+        inside = np.zeros(model.mesh.number_of_nodes, dtype=np.bool_)
         for block in self.prepared.space.blocks:
             inside[block.cells[cells[block.first : block.first + len(block.cells)] == self.body]] = True
         return inside
@@ -180,7 +180,7 @@ class ModulusChange:
         moved = self._on_dofs(system) @ x
         for name, factor in zip(names, factors, strict=True):
             if name in prescribed:
-                moved += np.outer((pairs.B @ prescribed[name])[np.tile(rows, system.directions)], factor)
+                moved += np.outer(seen_by(pairs.B, prescribed[name])[np.tile(rows, system.directions)], factor)
         moved[: system.pairs] += pairs.gap[rows][:, None]
         moved += pairs.compliance[:, rows].ravel()[:, None] * forces
         return np.asarray(moved + response.B @ response.parts.solve(self._on_contact(system, forces)))
@@ -193,8 +193,8 @@ class ModulusChange:
         """(d a, m) What the modulus changes of the motions of the active pairs per displacement of the contact dofs."""
         if system not in self._seen:
             rows = np.flatnonzero(np.tile(system.condensed.active, system.directions))
-            T = self.prepared.constraints.transform[:, system.condensed.dofs]
-            self._seen[system] = sp.csr_array(self.pairs.B[rows] @ T)
+            B = self.prepared.constraints.in_free(chosen_rows(self.pairs.B, rows))
+            self._seen[system] = chosen_columns(B, system.condensed.dofs)
         return self._seen[system]
 
     @cached_property

@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 import scipy.linalg
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, stored
 from signorini.derivative.interface_system import InterfaceSystem, PairStates
 from signorini.derivative.locked_bolts import LockedBolts
 from signorini.derivative.points import TapePoint
@@ -205,5 +205,5 @@ def _in_increments(number: int, leg: Leg, system: InterfaceSystem) -> Iterator[T
             r_rate=None,
             acting=_NOBODY,
             increment=leg.low < leg.high,  # at once friction does the work of its mean
-            displacement=None if leg.carried else state.displacement,
+            displacement=None if leg.carried else stored(state, "displacement"),
         )

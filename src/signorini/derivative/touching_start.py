@@ -179,7 +179,7 @@ class TouchingStart:
         """(n,) Those that touch without a force before anything is loaded, in a history that is followed to events."""
         leg, system = self.legs[0], self.points[0].system
         found = np.zeros(len(system.condensed.active), dtype=np.bool_)
-        if leg.start is not None and not leg.before.displacement.any() and not leg.before.forces.any():
+        if leg.start is not None and not leg.before.nodal[0].any() and not leg.before.forces.any():
             none = ZERO * (system.law.scale or 1.0)
             found[system.active] = (np.abs(leg.start.h[0]) <= none) & (np.abs(leg.start.r).max(axis=0) <= none)
         return found & system.prepared.interface.friction.rubs

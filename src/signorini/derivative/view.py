@@ -115,8 +115,8 @@ class HistoryView:
         return self._whole(i, self.points[i].h / self.points[i].system.root)
 
     def displacement(self, i: int) -> Array:
-        """(dofs,) Displacements at a point."""
-        return displacements([self.points[i]])[:, 0]
+        """(dofs,) Displacements at a point, see `displacement_at`."""
+        return displacement_at(self.points[i])
 
     @cached_property
     def friction(self) -> FrictionHistory:
@@ -143,14 +143,11 @@ class HistoryView:
         return whole
 
 
-def displacements(points: Sequence[TapePoint]) -> Array:
-    """(dofs, points) Displacements at points of one system."""
-    system = points[0].system
-    prepared, condensed = system.prepared, system.condensed
-    f = np.stack([free_load(prepared, point.load) for point in points], axis=-1)
-    imposed = np.stack([applied(prepared, point.load)[1] for point in points], axis=-1)
-    offset = np.stack([offsets(prepared, point.load)[:, system.active] for point in points], axis=-1)
-    h = np.stack([point.h / system.root for point in points], axis=-1)
-    r = np.stack([point.r * system.root for point in points], axis=-1)
-    free = condensed.displacement(condensed.reduce(f), h, r, offset)
-    return np.asarray(prepared.constraints.transform @ free + imposed)
+def displacement_at(point: TapePoint) -> Array:
+    """(dofs,) Displacements at a point, where vectors of all of them are."""
+    system, prepared = point.system, point.system.prepared
+    offset = offsets(prepared, point.load)[:, system.active]
+    reduced = system.condensed.reduce(free_load(prepared, point.load))
+    free = system.condensed.displacement(reduced, point.h / system.root, point.r * system.root, offset)
+    found: Array = prepared.constraints.displaced(free) + applied(prepared, point.load)[1]
+    return found

@@ -125,10 +125,18 @@ class ConstraintsOnRanks(Constraints):
         transform = transform_of(self.free[seen], self.rows.unknowns.size, *few)
         return sp.csr_array(chosen_columns(rows, seen) @ transform)
 
-    def of_free(self, motions: Array) -> Any:
-        """(z, k) The free displacements in motions (dofs, k), on the ranks."""
-        cut = self.rows.stiffness.vectors
-        return ColumnsOnRanks(self.rows.unknowns, [self.free_of(cut.of(motion)) for motion in motions.T])
+    def spread_free(self, free: IntArray, values: Array) -> Any:
+        """(z,) Values at some free displacements (k,), zero elsewhere, on the ranks."""
+        return self.rows.unknowns.spread(free, values)
+
+    def carried(self, rigid: Motions, by: Array) -> Any:
+        """(dofs,) Displacements by combinations (k,) of the rigid motions that ranks know, there."""
+        assert rigid is self.moved.rigid
+        return self.rows.stiffness.vectors.made(_carried, self.moved.number, by)
+
+    def of_free(self, rigid: Motions, by: Array) -> Any:
+        """(z, m) The free displacements in combinations (k, m) of k rigid motions, on the ranks."""
+        return ColumnsOnRanks(self.rows.unknowns, [self.free_of(self.carried(rigid, each)) for each in by.T])
 
     def resultants(self, rigid: Motions, forces: Any) -> Array:
         """(k,) Work of forces (dofs,) on k rigid motions."""
@@ -287,6 +295,11 @@ def _on_free(team: Team, forces: Array, number: int) -> Array:
 
 def _free_of(team: Team, displacement: Array, number: int) -> Array:
     found: Array = displacement[team.held[number].leaders]
+    return found
+
+
+def _carried(team: Team, number: int, by: Array) -> Array:
+    found: Array = team.held[number].motions @ by
     return found
 
 

@@ -97,6 +97,11 @@ class RowsKept:
             result[here] = rows
         return result.astype(self.dtype, copy=False)
 
+    @property
+    def place(self) -> tuple[int, IntArray]:
+        """Where ranks find the rows that others keep, see `rows_of_all`."""
+        return self._number, self._ends
+
     def come_home(self) -> None:
         """Fetch all of it, for ranks that will not be asked again."""
         self._home = self.whole()
@@ -151,6 +156,20 @@ def give(team: Team, number: int, rank: int) -> Array | None:
     """
     found: Array = team.held[number]
     return found if team.rank == rank else None
+
+
+def rows_of_all(team: Team, number: int, ends: IntArray, wanted: IntArray) -> Array:
+    """(k, ...) Rows that this rank wants of those that all keep; all of them ask each other at once.
+
+    Parameters
+    ----------
+    team : the ranks
+    number, ends : under which they keep them, and where the shares of the ranks begin and end
+    wanted : (k,) their numbers, ascending
+    """
+    asked = team.comm.alltoall(np.split(wanted, np.searchsorted(wanted, ends[1:-1])))
+    own, first = team.held[number], ends[team.rank]
+    return np.concatenate(team.comm.alltoall([own[rows - first] for rows in asked]))
 
 
 def _chosen(team: Team, numbers: IntArray, number: int) -> Array:

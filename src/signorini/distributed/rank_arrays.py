@@ -189,7 +189,7 @@ class ArrayOnRanks(NDArrayOperatorsMixin):
         return self.cut.made(_entrywise, ufunc, *given, dtype=_type_of(ufunc, given))
 
     def __array_function__(self, func: Any, kinds: Any, given: Any, keywords: Any) -> Any:
-        """Choices between arrays on the ranks, and zeros there; anything else of all of it."""
+        """Choices between arrays on the ranks, zeros there, where something is; anything else of all of it."""
         del kinds
         if func is np.zeros_like and self._home is None:
             return self.cut.zeros
@@ -199,6 +199,10 @@ class ArrayOnRanks(NDArrayOperatorsMixin):
         if func is np.flatnonzero and self._home is None:
             found = self.cut.team.everywhere(_not_zero, self.number, self.cut.number)
             return np.sort(np.concatenate(found))
+        if func in {np.argmax, np.argmin} and self._home is None:
+            ends = self.cut.team.everywhere(_extreme, func, self.number, self.cut.number)
+            entries, values = zip(*sorted(end for end in ends if end), strict=True)
+            return entries[int(func(values))]  # of equal ones the first
         return func(*_all_whole(given), **{name: _all_whole(value) for name, value in keywords.items()})
 
     def _goes_with(self, others: Sequence[Any]) -> bool:
@@ -303,6 +307,13 @@ def _not_zero(team: Team, number: int, entries: int) -> IntArray:
     """Numbers of entries of this rank that are not zero."""
     found: IntArray = team.held[entries][team.held[number] != 0]
     return found
+
+
+def _extreme(team: Team, func: Callable[[Array], Any], number: int, entries: int) -> tuple[int, Any] | None:
+    """Number and value of the largest or smallest entry of this rank; None where it has none."""
+    own = team.held[number]
+    k = int(func(own)) if len(own) else 0
+    return (int(team.held[entries][k]), own[k]) if len(own) else None
 
 
 def _product(team: Team, one: int, other: int) -> float:

@@ -16,6 +16,7 @@ from typing import Literal
 
 import numpy as np
 
+from signorini.arrays import stored
 from signorini.engine.energy import missing_energy
 from signorini.engine.events import follow_to_events
 from signorini.engine.increments import follow_increments, is_straight
@@ -166,7 +167,7 @@ def _followed(part: StepPart, number: int, jump: Literal["stop", "follow"] | Non
 
 def _told(failure: SolveFailed, words: str, status: Outcome, last: SolveFailed | None = None) -> SolveFailed:
     """A failure in other words, with the part of the way that increments to events have reached, or the last ones."""
-    said = SolveFailed(words, status=status, motion=failure.motion if last is None else last.motion)
+    said = SolveFailed(words, status=status, motion=stored(failure if last is None else last, "motion"))
     said.reached = failure.reached or (last and last.reached)
     return said
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import BoolArray, stored
+from signorini.arrays import Array, BoolArray, stored
 from signorini.clock import Clock
 from signorini.condense.condensed import Condensed, condense
 from signorini.condense.kept import Kept
@@ -28,6 +28,7 @@ from signorini.linalg.plan import Plans
 from signorini.linalg.protocol import NotPositiveDefinite
 from signorini.linalg.registry import BACKENDS
 from signorini.memory import give_memory_back
+from signorini.sparse_rows import chosen_rows, seen_by
 
 _GIVEN_BACK_FROM = 5_000_000
 """Entries of K from which the milliseconds that it takes to give memory back are worth it."""
@@ -91,7 +92,7 @@ def condense_bodies(
     InputError
         Where something moves without resistance, or contact hardly holds a body.
     """
-    rigid = examined.constraints.of_free(examined.motions @ examined.floating)
+    rigid = examined.constraints.of_free(examined.rigid, examined.floating)
     if not (examined.model.slides or examined.model.wears):  # neither looks for facets again
         examined.space.forget("facets")
     if bodies.K.nnz > _GIVEN_BACK_FROM:
@@ -197,12 +198,23 @@ def softness(examined: Examined, condensed: Condensed) -> float:
 
 
 def with_ties(examined: Examined, ties: Ties) -> Constraints:
-    """What moving supports prescribe, and with it what ties make of it at once: pairs that are tied do not part.
+    """What moving supports prescribe, and with it what ties make of it: pairs that are tied do not part.
 
     Parameters
     ----------
     examined, ties : the model and its ties
     """
-    constraints, B, T = examined.constraints, examined.interface.B[ties.rows], examined.constraints.transform
-    prescribed = {name: u + T @ ties.closing(B @ u) for name, u in constraints.prescribed.items()}
-    return constraints.prescribing(prescribed)
+    constraints = examined.constraints
+    return constraints.prescribing({name: closed(examined, ties, u) for name, u in constraints.prescribed.items()})
+
+
+def closed(examined: Examined, ties: Ties, u: Array) -> Array:
+    """Displacements (dofs,) that supports impose, and with them what ties make of them at once.
+
+    Parameters
+    ----------
+    examined, ties : the model and its ties
+    u : (dofs,)
+    """
+    moved = seen_by(chosen_rows(examined.interface.B, ties.rows), u)
+    return u + examined.constraints.displaced(examined.constraints.spread_free(*ties.closing(moved)))

@@ -9,7 +9,6 @@ import numpy as np
 
 from signorini.arrays import Array, BoolArray
 from signorini.attempt import Spent
-from signorini.engine.examine import on_ranks
 from signorini.engine.increments import applied, certified, moving_away
 from signorini.engine.prepare import Prepared
 from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart
@@ -24,7 +23,6 @@ from signorini.law.bound import ADHESION_SLOPE
 from signorini.law.states import OPEN
 from signorini.outcome import Outcome
 from signorini.solution.state import State, next_state
-from signorini.sparse_rows import transposed
 
 DRIVES = 1e-11
 """Of all forces that change: their work along a rigid motion that they drive."""
@@ -131,17 +129,16 @@ def unfelt(felt: Array) -> Array:
 
 def _alike(prepared: Prepared, motions: Array) -> Array:
     """(m, m) Combinations of motions (all parts, m) that bodies of one density resist alike, each on its own."""
-    space, volumes = prepared.space, nodal_volumes(prepared.space, prepared.model)
-    everything = float(volumes.sum())
-    weights = np.full(space.number_of_dofs, _BARE_VOLUME * everything)
-    weights[: space.dofs_of_nodes] = np.where(
-        np.repeat(space.used, space.components),
-        np.repeat(volumes, space.components),
-        _BARE_VOLUME * everything,
-    )
-    if on_ranks(prepared.K):  # the first one lets go of what is as large as the mesh
-        space.forget("volumes", "used", "used_nodes")
-    resisted = motions.T @ (transposed(prepared.motions) @ (weights[:, None] * (prepared.motions @ motions)))
+    space, constraints, rigid = prepared.space, prepared.constraints, prepared.rigid
+    weights, cells, everything = constraints.zeros, constraints.zeros, 0.0
+    for nodes, volumes in nodal_volumes(space, prepared.model):
+        dofs = space.dofs(nodes).ravel()
+        weights = weights + constraints.spread(dofs, np.repeat(volumes, space.components))
+        cells = cells + constraints.spread(dofs, np.ones(len(dofs)))
+        everything += float(volumes.sum())
+    weights = np.where(cells > 0.0, weights, _BARE_VOLUME * everything)
+    work = [constraints.resultants(rigid, weights * constraints.carried(rigid, motion)) for motion in motions.T]
+    resisted = motions.T @ np.column_stack(work)
     factor = np.linalg.cholesky(resisted / everything)
     return np.linalg.inv(factor).T
 
@@ -160,7 +157,7 @@ def _approach(part: StepPart, apart: BoolArray, motion: Array, loose: Array, rel
         state,
         point=state.point,
         loads=applied(prepared, state.point)[0],
-        displacement=state.nodal[0] + prepared.constraints.placed(prepared.motions @ motion),
+        displacement=state.nodal[0] + prepared.constraints.carried(prepared.rigid, motion),
         forces=np.where(apart, 0.0, state.forces),
         moved=np.concatenate([state.gap + relative[:1], relative[1:]]),
         status=np.where(apart, OPEN, state.status),
@@ -202,16 +199,19 @@ def resting(part: StepPart) -> StepPart:
     if not loose.shape[1] or np.abs(loose.T @ work).max() > DRIVES * float(np.abs(change).sum()):
         return part
     seen = np.abs(moved @ loose).max(axis=1) > _FEELS * float(np.abs(moved).max())
-    ways = unfelt(loose.T)
-    rigid = np.asarray(prepared.motions @ (prepared.floating @ loose))
-    place = np.linalg.lstsq(rigid, state.displacement - applied(prepared, state.point)[1])[0]
+    ways, resting = unfelt(loose.T), prepared.floating @ loose
+    constraints, rigid = prepared.constraints, prepared.rigid
+    # least squares: rigid motions of unit size are so far from parallel that products of theirs lose no digits
+    products = [constraints.resultants(rigid, constraints.carried(rigid, way)) for way in resting.T]
+    moved = constraints.resultants(rigid, state.nodal[0] - applied(prepared, state.point)[1])
+    place = resting @ np.linalg.solve(resting.T @ np.column_stack(products), resting.T @ moved)
     return replace(
         part,
         prepared=replace(
             prepared,
             solver=prepared.solver.moving(ways, prepared.interface, prepared.scale),
             floating=prepared.floating @ ways,
-            resting=prepared.constraints.placed(rigid @ place),
+            resting=constraints.carried(rigid, place),
         ),
         awake=prepared,
         waiting=seen.reshape(-1, len(touches)).any(axis=0),

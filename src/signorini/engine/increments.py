@@ -8,11 +8,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, frozen
+from signorini.arrays import Array, IntArray
 from signorini.attempt import MethodRun
 from signorini.engine.increment import Increment, IncrementAnswer
 from signorini.engine.prepare import Prepared
-from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, keep, leg_of
+from signorini.engine.step_parts import FollowedPart, Snapshot, StepPart, at_nodes, keep, leg_of
 from signorini.errors import SolveFailed, told
 from signorini.fem.rigid import describe_motion
 from signorini.law.states import OPEN, STICK
@@ -394,6 +394,7 @@ def leaving(prepared: Prepared, escape: Array) -> tuple[str, Array]:
 
 def moving_away(prepared: Prepared, rigid: Array) -> tuple[str, Array]:
     """The bodies that move by name, and their motion (nodes, d), largest entry 1; ``rigid`` as of all rigid motions."""
-    motion = prepared.space.at_nodes(prepared.motions @ rigid)
+    meshed = np.repeat([part.obstacle < 0 for part in prepared.parts], [part.motions for part in prepared.parts])
+    motion = prepared.constraints.carried(prepared.rigid, np.where(meshed, rigid, 0.0))
     said = np.where(np.abs(rigid) < _SAID_FROM * np.abs(rigid).max(initial=0.0), 0.0, rigid)
-    return describe_motion(prepared.parts, said), frozen(motion / (np.abs(motion).max() or 1.0))
+    return describe_motion(prepared.parts, said), at_nodes(prepared, motion / (np.abs(motion).max(initial=0.0) or 1.0))

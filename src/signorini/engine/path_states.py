@@ -116,7 +116,7 @@ def recovered(prepared: Prepared, last: State, point: LoadPoint, now: PathState)
     given = loads + prepared.flowed if len(prepared.flowed) else loads
     if ties is not None:
         missing = given + prepared.pushed(forces) - prepared.K @ displacement
-        ties.bear(forces, constraints.on_free(missing))
+        ties.give(forces, ties.forces(constraints.on_free(missing)))
     after = next_state(
         prepared,
         last,

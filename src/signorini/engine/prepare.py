@@ -146,7 +146,7 @@ class Prepared(Examined, DiscreteModel):
 
     def _released(self, released: frozenset[str]) -> Prepared:
         """Under all supports but some; what is factorised is not theirs yet."""
-        constraints = make_constraints(self.space, self.model, without=released)
+        constraints = make_constraints(self.space, self.model, without=released, spread=self.constraints.spread)
         prescribed = {name: self.multiplied.get(name, 1.0) * u for name, u in constraints.prescribed.items()}
         resisted = resistance(self.rigid, constraints)
         return replace(

@@ -10,15 +10,13 @@ from typing import Any
 import numpy as np
 
 from signorini.arrays import Array, IntArray, frozen
-from signorini.distributed.kept_rows import put_away
 from signorini.engine.bolts import bolt_results
 from signorini.engine.cycles import judge, make_cycles
 from signorini.engine.energy import interface_energy, stored_energy, thermal_energy
-from signorini.engine.examine import on_ranks
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.engine.reactions import reactions, rigid_dofs, rigid_motions, rigid_result
-from signorini.engine.step_parts import FollowedPart
+from signorini.engine.step_parts import FollowedPart, at_nodes
 from signorini.engine.stride_pairs import where_bodies_are
 from signorini.engine.turning import forces_in_space
 from signorini.engine.validity_notes import step_notes
@@ -75,8 +73,8 @@ def step_result(
         path=followed.path,
         finished=finished,
         events=followed.events,
-        displacement=_kept(prepared, _displacement(prepared, state)),
-        external=_kept(prepared, _external(prepared, state, loads, held)),
+        displacement=at_nodes(prepared, _displacement(prepared, state)),
+        external=at_nodes(prepared, _external(prepared, state, loads, held)),
         obstacles={
             obstacle.name: rigid_result(model, space, j, u, external) for j, obstacle in enumerate(model.obstacles)
         },
@@ -99,16 +97,6 @@ def step_result(
         notes=(*step_notes(prepared, followed), *((words,) if words else ())),
         yielding=_yielding(prepared, followed, float(stage.number - 1)),
     )
-
-
-def _kept(prepared: Prepared, values: Any) -> Array:
-    """(nodes, d) Results at the nodes of all dofs (dofs,), read-only; bodies on ranks have them there."""
-    if not isinstance(values, np.ndarray):
-        space = prepared.space
-        found: Array = put_away(values, (space.dofs_of_nodes // space.components, space.components))
-        return found
-    values = frozen(prepared.space.at_nodes(values))
-    return put_away(values) if on_ranks(prepared.K) else values
 
 
 def _paired(prepared: Prepared, state: State) -> Prepared:
@@ -212,7 +200,7 @@ def instant_of(prepared: Prepared, state: State) -> Instant:
         what="start",
         contacts=contacts_of(prepared, state, state),
         work=0.0,
-        displacement=_kept(prepared, _displacement(prepared, state)),
+        displacement=at_nodes(prepared, _displacement(prepared, state)),
         factors=dict(state.point.factors),
         plastic=_plastic(state, state, whole=True),
         places=frozen(prepared.space.mesh.points) if prepared.meshed is not None else None,
@@ -262,7 +250,7 @@ def _instants(
             work=snapshot.state.work - followed.before.work + heat(snapshot.state) - begun
             if snapshot.worked
             else np.nan,
-            displacement=_kept(prepared, _displacement(prepared, snapshot.state)) if snapshot.kept else None,
+            displacement=at_nodes(prepared, _displacement(prepared, snapshot.state)) if snapshot.kept else None,
             factors=dict(snapshot.state.point.factors),
             plastic=_plastic(
                 followed.before,

@@ -6,10 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
-from signorini.arrays import Array
+from signorini.arrays import stored
 from signorini.blas_threads import one_thread
 from signorini.clock import Clock
 from signorini.distributed.ranks import MUMPS, PETSC
@@ -284,9 +285,8 @@ def _from(
     return _step(now, stage, state, tape is not None)
 
 
-def _motion(stop: BaseException) -> Array | None:
-    motion = stop.motion if isinstance(stop, SolveFailed) else None
-    return None if motion is None else np.asarray(motion, dtype=np.float64)
+def _motion(stop: BaseException) -> Any:
+    return stored(stop, "motion") if isinstance(stop, SolveFailed) else None
 
 
 def _expected(stage: Stage) -> int:
@@ -298,7 +298,7 @@ def _constraints(prepared: Prepared, released: frozenset[str]) -> Constraints:
     """Under some of the supports; the prepared ones where those are they."""
     if released == prepared.released:
         return prepared.constraints
-    return make_constraints(prepared.space, prepared.model, without=released)
+    return make_constraints(prepared.space, prepared.model, without=released, spread=prepared.constraints.spread)
 
 
 def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[FollowedPart, list[float]]:

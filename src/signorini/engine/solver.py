@@ -220,7 +220,10 @@ class CondensedSolver:
                     ties.give(forces, 0.0)
                 internal = internal_forces(system.K, u) if step else system.K @ u
                 residual = f + constraints.on_free(system.pushed(forces) - internal)
-                residual = residual if ties is None else ties.bear(forces, residual)
+                if ties is not None:
+                    tied = ties.forces(residual)
+                    ties.give(forces, tied)
+                    residual = residual + constraints.spread_free(*ties.pushes(tied))
                 misfit = (offset + interface.motion(u) - moved)[:, own] + condensed.compliance * forces[:, own]
                 misfit[1:][law.locked] = 0.0
             lost = float(np.abs(misfit).max(initial=0.0))

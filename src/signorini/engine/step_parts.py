@@ -10,9 +10,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from signorini.arrays import Array, ArrayElsewhere, BoolArray, stored
+from signorini.arrays import Array, ArrayElsewhere, BoolArray, frozen, stored
 from signorini.attempt import MethodRun
 from signorini.distributed.kept_rows import put_away
+from signorini.engine.examine import on_ranks
 from signorini.engine.prepare import Prepared
 from signorini.engine.tape import Leg
 from signorini.errors import Interrupted, SolveFailed
@@ -247,6 +248,21 @@ def kept_by_ranks(state: State) -> State:
     state : with its displacement
     """
     return replace(state, **{name: put_away(stored(state, name)) for name in ("displacement", "external")})
+
+
+def at_nodes(prepared: Prepared, values: Any) -> Array:
+    """(nodes, d) Results at the nodes of all dofs (dofs,), read-only; bodies on ranks have them there.
+
+    Parameters
+    ----------
+    prepared, values : the model, and the results here or on the ranks
+    """
+    if not isinstance(values, np.ndarray):
+        space = prepared.space
+        found: Array = put_away(values, (space.dofs_of_nodes // space.components, space.components))
+        return found
+    values = frozen(prepared.space.at_nodes(values))
+    return put_away(values) if on_ranks(prepared.K) else values
 
 
 def leg_of(part: StepPart, after: State, **way: Any) -> Leg:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from signorini.arrays import Array
+from signorini.engine.condensation import closed
 from signorini.engine.increments import applied
 from signorini.engine.prepare import Prepared
 from signorini.errors import InputError
@@ -107,11 +108,7 @@ def completed(prepared: Prepared, offset: Array) -> Array:
     prepared : under supports that hold them
     offset : (dofs,) length, 0 of dofs that are not held
     """
-    constraints = prepared.constraints
-    completed = constraints.completed(offset)
+    completed = prepared.constraints.completed(offset)
     paths = prepared.solver.paths
     ties = None if paths is None else paths.condensed.ties
-    if ties is None:
-        return completed
-    result: Array = completed + constraints.transform @ ties.closing(prepared.interface.B[ties.rows] @ completed)
-    return result
+    return completed if ties is None else closed(prepared, ties, completed)

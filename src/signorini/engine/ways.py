@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import ceil
 
+from signorini.arrays import stored
 from signorini.engine.automatic import follow_automatically
 from signorini.engine.bond_increments import BOND_INCREMENTS, told_of_breaks, with_increments
 from signorini.engine.events import follow_exactly
@@ -171,7 +172,7 @@ def _as_asked(stage: Stage, part: StepPart) -> FollowedPart:
         except SolveFailed as nothing:
             words = f"{failure.sentence}; nor do increments go on: {nothing.sentence}{nothing.details}"
             status = failure.status if nothing.status == Outcome.NOT_FOUND else nothing.status  # a jump is proved
-            worse = SolveFailed(words, status=status, motion=nothing.motion)
+            worse = SolveFailed(words, status=status, motion=stored(nothing, "motion"))
             worse.reached = failure.reached  # the exact path goes farther
             raise worse from failure
         return replace(

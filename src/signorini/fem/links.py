@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +17,12 @@ from signorini.fem.places import nodes_at, place_dofs
 from signorini.fem.space import Space
 from signorini.model.links import AXES, Equation, directions
 from signorini.model.model import Model
+from signorini.sparse_rows import chosen_columns
 
+Few = tuple[IntArray, Array]
+"""Some dofs (k,), each once, and values (k,) there; 0 elsewhere."""
+
+_AGREEMENT_TOL = 1e-9  # of what supports prescribe: what equations may ask otherwise of it
 _CANCELLED_TOL = 1e-11  # of the largest coefficient of an equation: smaller ones are what is left where others cancel
 
 
@@ -208,6 +214,34 @@ def eliminate(links: Links, held: BoolArray) -> Eliminated:
 
 
 _Row = dict[int, float]
+
+
+def refuse_contradictions(space: Space, links: Links, found: Eliminated, given: Mapping[str, Few]) -> None:
+    """What equations leave to held dofs alone must hold for what supports prescribe.
+
+    Parameters
+    ----------
+    space, links, found : equations, and what is left of them
+    given : name of a support to what it prescribes at factor 1
+
+    Raises
+    ------
+    InputError
+        The first that does not.
+    """
+    for name, (dofs, u) in given.items():
+        left = chosen_columns(found.left, dofs)
+        wrong = abs(left @ u) > _AGREEMENT_TOL * (abs(left) @ abs(u))
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            dof = int(found.left.indices[found.left.indptr[row]])
+            node = dof // space.components
+            at = f" (node {space.mesh.labels[node]})" if node < space.mesh.number_of_nodes else ""
+            raise InputError(
+                f"contradicts the supports: all its displacements are held{at}, and '{name}' does not move them as it "
+                "asks; expected one of them to be free",
+                where=links.where(int(found.rows[row])),
+            )
 
 
 def _one_by_one(

@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, distinct, stored
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
+from signorini.fem.jacobian import cell_determinants
 from signorini.fem.measure import facet_areas, measure, measure_of_cells
 from signorini.fem.obstacles import arm, obstacle_loads
 from signorini.fem.places import nodes_at, place_dofs
@@ -20,6 +21,8 @@ from signorini.fem.varying import on_facets
 from signorini.model.conditions import BODY_LOADS, Load
 from signorini.model.model import Model
 from signorini.model.varying import Varying
+
+_AT_ONCE = 1 << 16  # cells whose nodes are looked at together: what they take does not grow with the mesh
 
 
 def nodal_loads(space: Space, model: Model) -> dict[str, Array]:
@@ -174,14 +177,24 @@ def _body_forces(space: Space, model: Model, load: Load) -> Array:
     return forces.ravel()
 
 
-def nodal_volumes(space: Space, model: Model) -> Array:
-    """``int N_k dx`` of every node, (nodes,), of quadratic cells also negative; 0 at nodes of no cell."""
-    volumes = np.zeros(len(space.mesh.points))
-    for block, weights in zip(space.blocks, space.volumes, strict=True):
-        numbers = block.first + np.arange(len(block.cells))
-        weights = weights * measure_of_cells(model, partial(_quadrature_points, space, block), numbers)
-        volumes += np.bincount(block.cells.ravel(), (weights @ block.values).ravel(), minlength=len(volumes))
-    return volumes
+def nodal_volumes(space: Space, model: Model) -> Iterator[tuple[IntArray, Array]]:
+    """``int N_k dx`` over some cells at a time: their nodes (k,), and of each, < 0 in some quadratic ones.
+
+    Parameters
+    ----------
+    space, model : of the bodies
+    """
+    for block in space.blocks:
+        cells = stored(block, "cells")
+        for first in range(0, cells.shape[0], _AT_ONCE):
+            rows = np.arange(first, min(first + _AT_ONCE, cells.shape[0]))
+            corners = cells[rows]
+            nodes = distinct(corners)
+            own, points = np.searchsorted(nodes, corners), space.mesh.places_of(nodes)
+            weights = np.abs(cell_determinants(points, own, block.gradients)) * block.weights
+            at = partial(_quadrature_points, block, points[own])
+            weights = weights * measure_of_cells(model, at, block.first + rows)
+            yield nodes, np.bincount(own.ravel(), (weights @ block.values).ravel()).astype(np.float64, copy=False)
 
 
 def _density(load: Load, mass: float, at: Array, axisymmetric: bool) -> Array:
@@ -198,7 +211,7 @@ def _density(load: Load, mass: float, at: Array, axisymmetric: bool) -> Array:
     return np.broadcast_to(constant, (*at.shape[:-1], len(constant)))
 
 
-def _quadrature_points(space: Space, block: Block) -> Array:
-    """Of the cells of a block, (m, q, d)."""
-    at: Array = block.values @ space.mesh.points[block.cells]
+def _quadrature_points(block: Block, corners: Array) -> Array:
+    """Of cells of a block, (m, q, d), whose corners are at (m, k, d)."""
+    at: Array = block.values @ corners
     return at

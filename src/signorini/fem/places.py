@@ -8,7 +8,7 @@ import numpy as np
 from signorini.arrays import IntArray
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import boundary
-from signorini.fem.space import Space
+from signorini.fem.space import ON_AXIS, Space
 from signorini.model.conditions import Place
 from signorini.model.links import directions
 from signorini.model.mesh import CORNERS, NODES_PER_CELL
@@ -69,6 +69,20 @@ def place_dofs(space: Space, model: Model, on: Place | int, where: Where) -> Int
             raise InputError(f"there is no node {on} in the mesh", where=where)
         return space.dofs(np.array([space.node_of[on]]))
     return space.dofs(nodes_at(space, on, where))
+
+
+def dofs_on_axis(space: Space, model: Model) -> IntArray:
+    """Radial and hoop dofs of nodes on the axis of an axisymmetric body: its points cannot leave the axis.
+
+    Parameters
+    ----------
+    space, model : of the body
+    """
+    if not model.axisymmetric:
+        return np.empty(0, int)
+    radii = space.mesh.points[space.used_nodes, 0]
+    dofs = space.dofs(space.used_nodes[radii <= ON_AXIS * radii.max()])
+    return np.sort(dofs[:, ::2], axis=None)
 
 
 def _corners_only(space: Space, name: str) -> bool:

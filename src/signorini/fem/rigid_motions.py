@@ -8,11 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, IntArray, among, index_type
+from signorini.arrays import Array, IntArray, among, distinct, index_type
 from signorini.fem.rigid import ConnectedBody, rotation_planes
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
-from signorini.sparse_rows import chosen_rows, gram, of_entries
+from signorini.sparse_rows import chosen_columns, chosen_rows, gram, of_entries
 
 _FEW_DOFS = 10_000  # up to which motions are made at once, which takes less than to make some rows twice
 
@@ -94,7 +94,8 @@ def resistance(rigid: RigidMotions, constraints: Constraints) -> Array:
     others = np.flatnonzero(~among([leaders], len(constraints.free)))
     lost, follow = chosen_rows(rigid.seen_by(others), others), chosen_rows(constraints.transform, others)
     if follow.nnz:
-        lost = lost - follow @ chosen_rows(rigid.matrix, leaders)
+        seen = distinct(follow.indices)
+        lost = lost - chosen_columns(follow, seen) @ chosen_rows(rigid.seen_by(leaders[seen]), leaders[seen])
     # springs count as held, whatever their stiffness
     springs = [(S / abs(S).max()) @ rigid.seen_by(S.indices) for S in constraints.springs.values()]
     return gram(sp.csr_array(sp.vstack([lost, *springs])) if springs else lost)

@@ -187,7 +187,7 @@ class Space:
     @cached_property
     def used(self) -> BoolArray:
         """(nodes,) Whether a node is one of any cell."""
-        return among([block.cells for block in self.blocks], len(self.mesh.points))
+        return among([block.cells for block in self.blocks], self.mesh.number_of_nodes)
 
     @cached_property
     def loose_nodes(self) -> IntArray:
@@ -209,7 +209,7 @@ class Space:
         """Of the cells that have nodes of named boundaries, which are few, by the number of their nodes."""
         mesh = self.mesh
         named = itertools.chain.from_iterable(mesh.facets(name) for name in mesh.boundaries)
-        return make_facets(mesh, among(named, len(mesh.points)))
+        return make_facets(mesh, among(named, mesh.number_of_nodes))
 
     def forget(self, *names: str) -> None:
         """Let go of what is made anew where somebody asks: as large as the mesh, and of use before it is solved.

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,20 +12,18 @@ from typing import Protocol, Self
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array, BoolArray, IntArray, elsewhere, index_type
+from signorini.arrays import Array, BoolArray, Data, IntArray, elsewhere, index_type
 from signorini.errors import InputError
 from signorini.fem.boundary import boundary
 from signorini.fem.foundation import make_springs
-from signorini.fem.links import Eliminated, Links, eliminate, make_links
+from signorini.fem.links import Few, Links, eliminate, make_links, refuse_contradictions
 from signorini.fem.obstacles import arm, driven
-from signorini.fem.places import nodes_at, place_dofs
-from signorini.fem.space import ON_AXIS, Space
+from signorini.fem.places import dofs_on_axis, nodes_at, place_dofs
+from signorini.fem.space import Space
 from signorini.fem.varying import at_nodes
 from signorini.model.links import directions
 from signorini.model.model import Model
-from signorini.sparse_rows import renumbered, rows_of, selection, transposed, turned_rows
-
-_AGREEMENT_TOL = 1e-9  # of what supports prescribe: what equations may ask otherwise of it
+from signorini.sparse_rows import chosen_columns, renumbered, rows_of, selection, transposed, turned_rows
 
 
 class Motions(Protocol):
@@ -73,7 +71,7 @@ class Constraints:
         """(dofs,) Zeros, where vectors of all displacements are: here, or on the ranks of MPI."""
         return np.zeros(len(self.free))
 
-    def placed(self, values: Array) -> Array:
+    def placed(self, values: Data) -> Data:
         """Values (dofs,), which nobody changes, where vectors of all displacements are."""
         return values
 
@@ -92,9 +90,21 @@ class Constraints:
         """(z,) The free displacements in some of all dofs (dofs,)."""
         return displacement[self.leaders]
 
-    def of_free(self, motions: Array) -> Array:
-        """(z, k) The free displacements in motions (dofs, k) of all dofs."""
-        return motions[self.leaders]
+    def spread_free(self, free: IntArray, values: Array) -> Array:
+        """(z,) Values at some free displacements (k,), each once, zero elsewhere, where vectors of all of them are."""
+        result = np.zeros(self.transform.shape[1])
+        result[free] = values
+        return result
+
+    def carried(self, rigid: Motions, by: Array) -> Array:
+        """(dofs,) Displacements by combinations (k,) of k rigid motions, where vectors of all displacements are."""
+        found: Array = rigid.matrix @ by
+        return found
+
+    def of_free(self, rigid: Motions, by: Array) -> Array:
+        """(z, m) The free displacements in combinations (k, m) of k rigid motions."""
+        found: Array = (rigid.matrix @ by)[self.leaders]
+        return found
 
     def resultants(self, rigid: Motions, forces: Array) -> Array:
         """(k,) Work of forces (dofs,) on k rigid motions."""
@@ -189,21 +199,28 @@ class _Prescribed:
     ----------
     held : (dofs,)
     owner : (dofs,) index of the support, otherwise -1
-    values : name to (dofs,) at factor 1
+    values : name to dofs (k,), each once, and (k,) what they are at factor 1; 0 elsewhere
     """
 
     held: BoolArray
     owner: IntArray
-    values: dict[str, Array]
+    values: dict[str, Few]
 
 
-def make_constraints(space: Space, model: Model, *, without: Collection[str] = ()) -> Constraints:
+def make_constraints(
+    space: Space,
+    model: Model,
+    *,
+    without: Collection[str] = (),
+    spread: Callable[[IntArray, Array], Array] | None = None,
+) -> Constraints:
     """Read supports, rigid loaded boundaries, equations and rigid bodies.
 
     Parameters
     ----------
     space, model : of the supports
     without : names of supports that do not act
+    spread : puts what they prescribe where vectors of all displacements are, see `Constraints.spread`; None: here
 
     Raises
     ------
@@ -221,7 +238,7 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
         C = sp.csr_array(links.C @ selection(leader, total))
         links = replace(links, C=C, first=leader[links.first])
         found = eliminate(links, given.held)
-        _refuse_contradictions(space, links, found, given)
+        refuse_contradictions(space, links, found, given.values)
         follows[found.dependent], shares = True, found.shares
     free = np.full(total, -1)
     unknown = np.flatnonzero(~given.held & ~follows & (leader == np.arange(total)))
@@ -242,15 +259,26 @@ def make_constraints(space: Space, model: Model, *, without: Collection[str] = (
         dependent=dependent,
         shares=shares,
     )
-    return made.prescribing({name: made.completed(u) for name, u in given.values.items()})
+    put = spread or made.spread
+    return made.prescribing({name: put(*_completed(made, few)) for name, few in given.values.items()})
+
+
+def _completed(constraints: Constraints, few: Few) -> Few:
+    """Displacements of held dofs, and with them those of dependent ones."""
+    (dofs, values), dependent = few, constraints.dependent
+    if not len(dependent):
+        return few
+    given = chosen_columns(constraints.shares, dofs) @ values
+    return np.concatenate([dofs, dependent]), np.concatenate([values, given])
 
 
 def _prescribed(space: Space, model: Model, links: Links | None, without: Collection[str]) -> _Prescribed:
     """What supports, moving obstacles and the axis hold, and what belongs to nothing."""
     total, d = space.number_of_dofs, space.components
-    axis_dofs = _on_axis(space, model)
-    owner, values = np.full(total, -1), np.zeros(total)
-    prescribed = {support.label: np.zeros(total) for support in model.supports if support.moves}
+    axis_dofs = dofs_on_axis(space, model)
+    owner = np.full(total, -1)
+    known: Few = np.zeros(0, np.int64), np.zeros(0)
+    prescribed = {support.label: [known] for support in model.supports if support.moves}
     for i, support in enumerate(model.supports):
         if support.label in without:
             continue
@@ -262,18 +290,18 @@ def _prescribed(space: Space, model: Model, links: Links | None, without: Collec
             value = _values(space, model, i, axis, dofs)
             moved = np.isin(dofs, axis_dofs) & (value != 0.0)
             _check_axis(space, dofs[moved], i, value[moved])
-            _check_agreement(space, model, owner, values, dofs, i, value)
+            _check_agreement(space, model, owner, known, dofs, i, value)
             new = owner[dofs] < 0
-            owner[dofs[new]], values[dofs[new]] = i, value[new]
+            owner[dofs[new]] = i
+            known = _joined([known, (dofs[new], value[new])])
             if support.moves:
-                prescribed[support.label][dofs[new]] = value[new]
+                prescribed[support.label].append((dofs[new], value[new]))
     held = owner >= 0
     for j, obstacle in enumerate(model.obstacles):
         dofs = space.obstacle_dofs(j)
         held[dofs], path = driven(model, j)
         if path.any():
-            prescribed[obstacle.label] = np.zeros(total)
-            prescribed[obstacle.label][dofs] = path
+            prescribed[obstacle.label] = [(dofs, path)]
     for j in range(len(model.rigid_bodies)):
         dofs = space.obstacle_dofs(len(model.obstacles) + j)
         held[dofs[len(directions(space.dimension)) :]] = True
@@ -284,7 +312,13 @@ def _prescribed(space: Space, model: Model, links: Links | None, without: Collec
         loose[links.C.indices] = False
     held |= loose
     held[axis_dofs] = True
-    return _Prescribed(held=held, owner=owner, values=prescribed)
+    return _Prescribed(held=held, owner=owner, values={name: _joined(parts) for name, parts in prescribed.items()})
+
+
+def _joined(parts: Sequence[Few]) -> Few:
+    """Some dofs and more of them."""
+    dofs, values = zip(*parts, strict=True)
+    return np.concatenate(dofs), np.concatenate(values)
 
 
 def _values(space: Space, model: Model, i: int, axis: int, dofs: IntArray) -> Array:
@@ -327,31 +361,6 @@ def _leaders(space: Space, model: Model, given: _Prescribed) -> IntArray:
     return leader
 
 
-def _refuse_contradictions(space: Space, links: Links, found: Eliminated, given: _Prescribed) -> None:
-    """What equations leave to held dofs alone must hold for what supports prescribe."""
-    for name, u in given.values.items():
-        wrong = abs(found.left @ u) > _AGREEMENT_TOL * (abs(found.left) @ abs(u))
-        if wrong.any():
-            row = int(np.argmax(wrong))
-            dof = int(found.left.indices[found.left.indptr[row]])
-            node = dof // space.components
-            at = f" (node {space.mesh.labels[node]})" if node < len(space.mesh.points) else ""
-            raise InputError(
-                f"contradicts the supports: all its displacements are held{at}, and '{name}' does not move them as it "
-                "asks; expected one of them to be free",
-                where=links.where(int(found.rows[row])),
-            )
-
-
-def _on_axis(space: Space, model: Model) -> IntArray:
-    """Radial and hoop dofs of nodes on the axis of an axisymmetric body: its points cannot leave the axis."""
-    if not model.axisymmetric:
-        return np.empty(0, int)
-    radii = space.mesh.points[space.used_nodes, 0]
-    dofs = space.dofs(space.used_nodes[radii <= ON_AXIS * radii.max()])
-    return np.sort(dofs[:, ::2], axis=None)
-
-
 def _check_axis(space: Space, dofs: IntArray, i: int, value: Array) -> None:
     if len(dofs):
         node, axis = divmod(int(dofs[0]), space.components)
@@ -364,20 +373,23 @@ def _check_axis(space: Space, dofs: IntArray, i: int, value: Array) -> None:
 
 
 def _check_agreement(
-    space: Space, model: Model, owner: IntArray, values: Array, dofs: IntArray, i: int, value: Array
+    space: Space, model: Model, owner: IntArray, known: Few, dofs: IntArray, i: int, value: Array
 ) -> None:
     """Two supports may share a dof if neither moves it."""
-    shared = (owner[dofs] >= 0) & ((value != 0.0) | (values[dofs] != 0.0))
-    for dof, own in zip(dofs[shared], value[shared], strict=True):
+    both = np.flatnonzero(owner[dofs] >= 0)
+    order = np.argsort(known[0])
+    other_value = known[1][order[np.searchsorted(known[0], dofs[both], sorter=order)]]
+    apart = (value[both] != 0.0) | (other_value != 0.0)
+    for dof, own, theirs in zip(dofs[both][apart], value[both][apart], other_value[apart], strict=True):
         other = model.supports[owner[dof]]
         node, axis = divmod(int(dof), space.components)
         on = (
             f"u_{model.axes[axis]} = {own:g} at node {space.mesh.labels[node]}, where"
-            if (node < len(space.mesh.points))
+            if (node < space.mesh.number_of_nodes)
             else f"{own:g} for a rigid body in a direction in which"
         )
         raise InputError(
             f"'{model.supports[i].label}' prescribes {on} "
-            f"support '{other.label}' prescribes {values[dof]:g}; expected one support to move a node in a direction",
+            f"support '{other.label}' prescribes {theirs:g}; expected one support to move a node in a direction",
             where=("support", i, "u"),
         )

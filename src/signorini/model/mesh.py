@@ -229,7 +229,7 @@ class Mesh:
     @property
     def labels(self) -> IntArray:
         """What results call the nodes, (n,)."""
-        return np.arange(1, len(self.points) + 1) if self.node_numbers is None else self.node_numbers
+        return np.arange(1, self.number_of_nodes + 1) if self.node_numbers is None else self.node_numbers
 
     @property
     def cell_labels(self) -> IntArray:

@@ -14,7 +14,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 
 from signorini._version import __version__
-from signorini.arrays import ArrayElsewhere
+from signorini.arrays import ArrayElsewhere, stored
 from signorini.errors import InputError, brief
 from signorini.hdf5 import check_hdf5
 from signorini.output.atomic_write import atomic_write
@@ -89,7 +89,7 @@ class GrowingArchive:
                 for i in range(len(self._steps), len(history.steps)):
                     self._steps.append(to_plain(history.steps[i], f"steps/{i}", keep))
                 rest = [field.name for field in fields(History) if field.name != "steps"]
-                plain = {name: to_plain(getattr(history, name), name, keep) for name in rest}
+                plain = {name: to_plain(stored(history, name), name, keep) for name in rest}
                 plain["steps"] = tuple_of(self._steps)
                 file.attrs["format"], file.attrs["signorini"] = _FORMAT, __version__
                 file.create_dataset(_STRUCTURE, data=sealed(plain))

@@ -6,9 +6,12 @@ from __future__ import annotations
 import zipfile
 import zlib
 from pathlib import Path
+from typing import IO, Any
 
 import numpy as np
+from numpy.lib.format import dtype_to_descr, write_array, write_array_header_1_0
 
+from signorini.arrays import ArrayElsewhere
 from signorini.errors import InputError, brief
 from signorini.output.atomic_write import atomic_write
 from signorini.output.dataclasses_json import AnyArray, from_plain, sealed, to_plain, unsealed
@@ -34,16 +37,30 @@ def write_checkpoint(checkpoint: Checkpoint, path: Path, *, compress: bool = Fal
     checkpoint, path : what is written, and where
     compress : whether it is to be half as large, which takes several times as long
     """
-    arrays: dict[str, AnyArray] = {}
+    arrays: dict[str, Any] = {}
 
     def keep(name: str, array: AnyArray, _: str) -> str:
         arrays[name] = array
         return name
 
     structure = sealed(to_plain(checkpoint, "end", keep))
-    with atomic_write(path) as aside, aside.open("wb") as file:
-        save = np.savez_compressed if compress else np.savez
-        save(file, allow_pickle=False, format=_FORMAT, structure=structure, **arrays)
+    arrays |= {"format": np.array(_FORMAT), "structure": np.array(structure)}
+    kind = zipfile.ZIP_DEFLATED if compress else zipfile.ZIP_STORED
+    with atomic_write(path) as aside, zipfile.ZipFile(aside, "w", kind) as archive:
+        for name, array in arrays.items():
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                _write_array(member, array)
+
+
+def _write_array(file: IO[bytes], array: AnyArray | ArrayElsewhere) -> None:
+    """An array as NumPy's archives hold it; one that ranks keep some rows at a time, it is not made here."""
+    if not isinstance(array, np.ndarray):
+        header = {"descr": dtype_to_descr(array.dtype), "fortran_order": False, "shape": array.shape}
+        write_array_header_1_0(file, header)
+        for _, rows in array.blocks():
+            file.write(rows.tobytes())
+    else:
+        write_array(file, array, allow_pickle=False)
 
 
 def read_checkpoint(path: Path) -> Checkpoint:

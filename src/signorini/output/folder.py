@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from signorini.arrays import stored
 from signorini.clock import Clock
 from signorini.crew import shared
 from signorini.distributed.ranks import ON_RANKS
@@ -282,7 +283,7 @@ class Publisher:
         While the run goes on the archive grows, and the tables that users of other codes expect wait for the end. The
         archive is written beside the fields: HDF5 and NumPy let go of the interpreter.
         """
-        if not history.steps and history.escape is None:
+        if not history.steps and stored(history, "escape") is None:
             return []
         if history.backend in ON_RANKS and self._ranks is None:
             from signorini.output.rank_files import fields_on_ranks

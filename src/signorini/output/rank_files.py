@@ -11,7 +11,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, stored
+from signorini.distributed.kept_rows import RowsKept, rows_of_all
 from signorini.distributed.mesh_rows import at_hand
 from signorini.distributed.ranks import Team, several_ranks
 from signorini.distributed.shares import FieldShare, shares
@@ -36,6 +37,10 @@ Arrays = Mapping[str, list[tuple[str, str, int]]]
 class OwnShare:
     """The share of a rank, which recovers its fields in one state after the other.
 
+    Attributes
+    ----------
+    nodes : (m,) of the mesh, ascending
+
     Parameters
     ----------
     share : its cells
@@ -43,7 +48,7 @@ class OwnShare:
 
     def __init__(self, share: FieldShare) -> None:
         self._model = share.model(loads=share.loads, node_numbers=share.node_numbers)
-        self._fields, self._numbers = Fields(self._model), share.numbers
+        self._fields, self._numbers, self.nodes = Fields(self._model), share.numbers, share.nodes
         by_family = self._model.mesh.by_family
         written = by_family(np.where(share.own, share.body, -1))
         families = list(zip(by_family(share.body), written, strict=True))
@@ -108,10 +113,13 @@ class FieldsOnRanks:
         """
         *files, _ = self.files(name)
         (folder / files[0]).parent.mkdir(exist_ok=True)
-        paths, u = iter([str((folder / file).resolve()) for file in files]), state.displacement
-        assert u is not None  # asked for here: ranks that may keep it wait for their parts below
-        asked = ((_part_of(state, u[nodes], nodes), next(paths)) if writes else None for nodes, writes in self._asked())
-        found = self._team.everywhere(_write, self._number, compress, pieces=asked)
+        paths, u = iter([str((folder / file).resolve()) for file in files]), stored(state, "displacement")
+        kept = isinstance(u, RowsKept)  # then ranks have it of each other
+        asked = (
+            (_part_of(state, None if kept else u[nodes], nodes), next(paths)) if writes else None
+            for nodes, writes in self._asked()
+        )
+        found = self._team.everywhere(_write, self._number, u.place if kept else None, compress, pieces=asked)
         for error in found:
             if isinstance(error, OSError):
                 raise error
@@ -137,8 +145,8 @@ def fields_on_ranks(history: History) -> FieldsOnRanks | None:
     return FieldsOnRanks(team, model, owner)
 
 
-def _part_of(state: State, u: Array, nodes: IntArray) -> Instant:
-    """What a rank needs of a state at its nodes, which ascend, with their displacements."""
+def _part_of(state: State, u: Array | None, nodes: IntArray) -> Instant:
+    """What a rank needs of a state at its nodes, which ascend, with their displacements where it has not got them."""
     forces = state.nodal_forces
     if forces is not None:
         here = np.isin(forces.node, nodes)
@@ -162,12 +170,20 @@ def _hold(team: Team, share: FieldShare, number: int) -> None:
         team.held[number] = OwnShare(share)
 
 
-def _write(team: Team, asked: tuple[Instant, str] | None, number: int, compress: bool) -> Arrays | OSError | None:
-    """Write own cells, and say what arrays the file holds, or why it cannot be written."""
-    if asked is None:
+def _write(
+    team: Team, asked: tuple[Instant, str] | None, number: int, moved: tuple[int, IntArray] | None, compress: bool
+) -> Arrays | OSError | None:
+    """Write own cells, and say what arrays the file holds, or why it cannot be written.
+
+    Where ranks keep displacements of all nodes, ``moved`` says where, see `rows_of_all`.
+    """
+    own: OwnShare | None = team.held.get(number)
+    nodes = np.zeros(0, dtype=np.int64) if own is None else own.nodes
+    u = None if moved is None else rows_of_all(team, *moved, nodes)
+    if asked is None or own is None:
         return None
     state, path = asked
-    grid = grid_of(team.held[number].at(state))
+    grid = grid_of(own.at(state if u is None else replace(state, displacement=u)))
     try:
         write_grid(grid, Path(path), compress=compress)
     except OSError as error:  # of a full disk the first rank tells, and the run goes on

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from signorini.arrays import Array
+from signorini.arrays import Array, elsewhere
 from signorini.errors import InputError, one_of
 from signorini.model.model import Model
 from signorini.outcome import Outcome
@@ -20,6 +20,7 @@ from signorini.solution.wellposedness import WellPosedness
 PHASES = ("read", "assembly", "factorisation", "condensation", "complementarity", "recovery", "output", "total")
 
 
+@elsewhere("escape")
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class History(Short):
     """The end of every step, of one that could not be finished how far it was followed.

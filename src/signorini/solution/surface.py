@@ -47,13 +47,14 @@ def contact_lines(model: Model, result: ContactResult) -> IntArray:
 def _lines(model: Model, result: ContactResult) -> tuple[IntArray, Array]:
     """Lines (m, 2) as of `contact_lines`, and how long they are, over the nodes between their ends, too."""
     lines, lengths = [np.zeros((0, 2), np.int64)], [np.zeros(0)]
-    order, points = np.argsort(result.node), model.mesh.points
+    order = np.argsort(result.node)
     facets = model.mesh.facets(result.nonmortar) if result.nonmortar in model.mesh.boundaries else ()
     for given in facets:
         at = order[np.minimum(np.searchsorted(result.node, given, sorter=order), len(order) - 1)]
         known = result.node[at] == given
         parts = [[0, 1]] if given.shape[1] == 2 else [[0, 2], [2, 1]]
-        length = [np.linalg.norm(np.diff(points[given[:, part]], axis=1)[:, 0], axis=1) for part in parts]
+        places = model.mesh.places_of(given.ravel()).reshape(*given.shape, -1)
+        length = [np.linalg.norm(np.diff(places[:, part], axis=1)[:, 0], axis=1) for part in parts]
         if len(parts) == 2:  # whole facets where the nodes between their corners carry no pairs
             whole = known[:, :2].all(axis=1) & ~known[:, 2]
             lines.append(at[whole, :2])
