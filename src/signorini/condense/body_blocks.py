@@ -88,20 +88,16 @@ class BodyBlocks:
 
     def compliance(self, B: sp.csr_array) -> Array:
         """``B M^-1 B^T`` of the stiffness M with its ties, (k, k), symmetric to the last digit; B (k, m)."""
-        rows, result = B.shape[0], np.zeros((0, 0))
+        result = np.zeros((B.shape[0],) * 2)
         for part in self.blocks:
             own = B if len(part.dofs) == B.shape[1] else chosen_columns(B, part.dofs)
             seen = np.flatnonzero(np.diff(own.indptr))
-            own = own if len(seen) == rows else chosen_rows(own, seen)
+            own = own if len(seen) == len(result) else chosen_rows(own, seen)
             half = own @ part.inverse.T  # the inverse is as large as what is made of it, like all below
             half = np.ascontiguousarray(half.T)
             moved = own @ half
             del half
-            if len(seen) == rows and not result.size:
-                result = moved
-                continue
-            result = result if result.size else np.zeros((rows, rows))
-            if len(seen) == rows:
+            if len(seen) == len(result):
                 result += moved
             else:
                 result[np.ix_(seen, seen)] += moved
