@@ -157,6 +157,18 @@ def among(lists: Iterable[IntArray], count: int) -> BoolArray:
     return found
 
 
+def places_among(numbers: IntArray, ascending: IntArray) -> tuple[BoolArray, IntArray]:
+    """Which of some numbers (k,) an ascending list holds, and the places of these in it.
+
+    >>> [part.tolist() for part in places_among(np.array([7, 3, 9]), np.array([3, 5, 7]))]
+    [[True, True, False], [2, 0]]
+    """
+    place = np.searchsorted(ascending, numbers)
+    here = place < len(ascending)
+    here[here] = ascending[place[here]] == numbers[here]
+    return here, place[here]
+
+
 def sharing(values: IntArray) -> tuple[IntArray, IntArray]:
     """All pairs of entries that have one value, an entry and itself too: places of the first and of the second.
 
