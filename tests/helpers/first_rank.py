@@ -213,6 +213,8 @@ class Watch:
 
 def written_otherwise(history, prints, folder):
     """Tables of files of text that are other ones where one process recovers all fields."""
+    if not history.steps:
+        return []
     fields = Fields(history.model)
     write_frd(history, fields, folder / "one.frd", prints.times)
     write_dat(history, fields, prints, folder / "one.dat")
