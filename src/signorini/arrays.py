@@ -84,6 +84,16 @@ def stored(data: Any, name: str) -> Any:
     return vars(data)[name]
 
 
+def largest(values: Array | ArrayElsewhere) -> float:
+    """Largest size of an entry, 0 of none; of an array elsewhere some rows after the others.
+
+    >>> largest(np.array([1.0, -2.0]))
+    2.0
+    """
+    parts = [values] if isinstance(values, np.ndarray) else (rows for _, rows in values.blocks())
+    return max((float(np.abs(part).max(initial=0.0)) for part in parts), default=0.0)
+
+
 def operand(data: Any, name: str) -> Any:
     """A field of a dataclass to be computed with: the array, or one elsewhere that is computed with where it is.
 

@@ -32,6 +32,7 @@ from signorini.output.fields import Fields
 from signorini.output.folder import Publisher
 from signorini.output.frd import write_frd
 from signorini.output.rank_files import FieldsOnRanks
+from signorini.output.table import history_table
 from tests.helpers.rank_files import all_prints, differing
 
 HERE = Path(sg.__file__).parent
@@ -259,6 +260,7 @@ def main():
             with tempfile.TemporaryDirectory() as name:
                 folder, prints = Path(name), all_prints(model, len(history.steps))
                 Publisher(folder=folder, clock=Clock(), started=0.0, prints=prints).publish(history)
+                assert history_table(history)
                 sys.setprofile(None)
                 found["files of text"] = written_otherwise(history, prints, folder)
             found["watched"] = sorted(watch.found)
