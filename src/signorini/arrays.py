@@ -84,6 +84,16 @@ def stored(data: Any, name: str) -> Any:
     return vars(data)[name]
 
 
+def largest(values: Array | ArrayElsewhere) -> float:
+    """Largest size of an entry, 0 of none; of an array elsewhere some rows after the others.
+
+    >>> largest(np.array([1.0, -2.0]))
+    2.0
+    """
+    parts = [values] if isinstance(values, np.ndarray) else (rows for _, rows in values.blocks())
+    return max((float(np.abs(part).max(initial=0.0)) for part in parts), default=0.0)
+
+
 def operand(data: Any, name: str) -> Any:
     """A field of a dataclass to be computed with: the array, or one elsewhere that is computed with where it is.
 
@@ -155,6 +165,18 @@ def among(lists: Iterable[IntArray], count: int) -> BoolArray:
     for numbers in lists:
         found[numbers] = True
     return found
+
+
+def places_among(numbers: IntArray, ascending: IntArray) -> tuple[BoolArray, IntArray]:
+    """Which of some numbers (k,) an ascending list holds, and the places of these in it.
+
+    >>> [part.tolist() for part in places_among(np.array([7, 3, 9]), np.array([3, 5, 7]))]
+    [[True, True, False], [2, 0]]
+    """
+    place = np.searchsorted(ascending, numbers)
+    here = place < len(ascending)
+    here[here] = ascending[place[here]] == numbers[here]
+    return here, place[here]
 
 
 def sharing(values: IntArray) -> tuple[IntArray, IntArray]:

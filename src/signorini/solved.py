@@ -15,7 +15,7 @@ from signorini.output.atomic_write import atomic_write
 from signorini.output.checkpoint import write_checkpoint
 from signorini.output.folder import write_folder
 from signorini.output.frd import write_frd
-from signorini.output.series import write_pvd
+from signorini.output.series import with_ranks, write_pvd
 from signorini.output.table import history_table
 from signorini.output.vtu import write_bodies
 from signorini.plot.animation import animate_path
@@ -61,7 +61,7 @@ class Solution(HistoryFields):
             ),
             ".pvd": lambda: write_pvd(self, self._fields, path, compress=compress),
             ".h5": lambda: write_archive(self, path, compress=compress),
-            ".frd": lambda: write_frd(self, self._fields, path),
+            ".frd": lambda: write_frd(self, with_ranks(self) or self._fields, path),
             ".csv": lambda: self.contact_table().write(path),
         }
         if path.suffix.lower() not in writers:

@@ -91,5 +91,5 @@ def test_the_first_rank_holds_nothing_as_large_as_the_mesh(name, backend):
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     steps = 0 if name == "pulled away" else len(MODELS[name]().steps)
-    assert len(found) == 2 + steps  # "watched" and "end" beside them
+    assert len(found) == 3 + steps  # "files of text", "watched" and "end" beside them
     assert not any(found.values()), found

@@ -26,8 +26,14 @@ from signorini.meshing.cut import cut
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 from signorini.model.obstacle import Plane
+from signorini.output import by_rows
+from signorini.output.dat import write_dat
+from signorini.output.fields import Fields
 from signorini.output.folder import Publisher
+from signorini.output.frd import write_frd
 from signorini.output.rank_files import FieldsOnRanks
+from signorini.output.table import history_table
+from tests.helpers.rank_files import all_prints, differing
 
 HERE = Path(sg.__file__).parent
 _APART = (type, types.ModuleType, Team, str, bytes, int, float)
@@ -206,12 +212,22 @@ class Watch:
         return array and not (value.ndim == 2 and len(value) == value.shape[1])
 
 
+def written_otherwise(history, prints, folder):
+    """Tables of files of text that are other ones where one process recovers all fields."""
+    if not history.steps:
+        return []
+    fields = Fields(history.model)
+    write_frd(history, fields, folder / "one.frd", prints.times)
+    write_dat(history, fields, prints, folder / "one.dat")
+    return [table for end in ("frd", "dat") for table in differing(folder / f"one.{end}", folder / f"solution.{end}")]
+
+
 def main():
     """Print the ways, step by step, and at the end; and who has had all displacements once bodies were on the ranks."""
     from signorini.engine import solver_on_ranks  # needs PETSc
 
     backend, name = sys.argv[1:]
-    validity_notes._AT_ONCE, loads._AT_ONCE = 100, 20  # nodes and cells: the mesh is small
+    validity_notes._AT_ONCE, loads._AT_ONCE, by_rows._AT_ONCE = 100, 20, 20  # nodes and cells: the mesh is small
     found = {}
     told = following.step_result
 
@@ -241,9 +257,12 @@ def main():
             solver_on_ranks.kept_on_ranks = kept_on_ranks
             watch.without(FieldsOnRanks, "__init__")  # it sends ranks their cells
             history = ASKED.get(name, solved)(model, backend)
-            with tempfile.TemporaryDirectory() as folder:
-                Publisher(folder=Path(folder), clock=Clock(), started=0.0).publish(history)
-            sys.setprofile(None)
+            with tempfile.TemporaryDirectory() as name:
+                folder, prints = Path(name), all_prints(model, len(history.steps))
+                Publisher(folder=folder, clock=Clock(), started=0.0, prints=prints).publish(history)
+                assert history_table(history)
+                sys.setprofile(None)
+                found["files of text"] = written_otherwise(history, prints, folder)
             found["watched"] = sorted(watch.found)
             found["end"] = large({"model": model, "history": history}, model.mesh.number_of_nodes)
             print(json.dumps(found))

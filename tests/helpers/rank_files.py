@@ -1,9 +1,48 @@
-"""Files of bodies that ranks have written, put together by the numbers of their nodes."""
+"""Files of bodies that ranks have written, put together by the numbers of their nodes; and files of text compared."""
 
+import re
 from xml.etree import ElementTree
 
 import meshio
 import numpy as np
+
+from signorini.model.prints import Prints, Table
+
+_NUMBER = re.compile(r"-?\d\.\d+E[+-]\d\d")
+_ENDS = re.compile(r"\n -3\n|\n\n")  # of tables
+
+
+def all_prints(model, steps):
+    """Prints of everything that there is at nodes and in cells, at the end of every step."""
+    asked = {
+        "nodes": (model.mesh.number_of_nodes, ("U", "RF")),
+        "cells": (model.mesh.number_of_cells, ("S", "E")),
+        "contacts": (len(model.contacts), ("CDIS", "CSTR")),
+    }
+    tables = (
+        Table(step=k, of=of, place="all", members=np.arange(count)[::-1], quantities=what, totals="yes")
+        for k in range(steps)
+        for of, (count, what) in asked.items()
+        if count
+    )
+    return Prints(tables=tuple(tables), times=tuple(range(1, steps + 1)))
+
+
+def differing(one, other):
+    """Tables in which two files of text differ by more than a digit and rounding of their largest number."""
+    tables = [_ENDS.split(file.read_text()) for file in (one, other)]
+    assert len(tables[0]) == len(tables[1]) > 2
+    return [a.splitlines()[:4] for a, b in zip(*tables, strict=True) if a != b and not _alike(a, b)]
+
+
+def _alike(*tables):
+    """Whether two tables are the same but for rounding."""
+    (one, others), texts = (_NUMBER.findall(table) for table in tables), [_NUMBER.sub("#", table) for table in tables]
+    if texts[0].replace(" ", "") != texts[1].replace(" ", ""):  # of which the sign of a number takes one
+        return False
+    a, b = np.array(one, float), np.array(others, float)
+    digit = 10.0 ** -len(one[0].partition(".")[2].partition("E")[0])
+    return np.allclose(a, b, rtol=1.01 * digit, atol=1e-12 * np.abs(a).max())
 
 
 def sources(index):

@@ -12,14 +12,17 @@ import signorini as sg
 from signorini.distributed.partition import owners
 from signorini.engine.examine import examine
 from signorini.gallery.sectors import ring_on_shaft
+from signorini.output import by_rows
 from signorini.output import rank_files as module
+from signorini.output.dat import write_dat
 from signorini.output.fields import Fields
 from signorini.output.folder import write_folder
+from signorini.output.frd import write_frd
 from signorini.output.rank_files import FieldsOnRanks, fields_on_ranks
 from signorini.output.series import write_state
 from tests.helpers.fake_ranks import RanksInTurn
 from tests.helpers.on_ranks import MODELS, in_increments
-from tests.helpers.rank_files import assert_whole, sources
+from tests.helpers.rank_files import all_prints, assert_whole, differing, sources
 
 RANKS = 3
 
@@ -47,6 +50,27 @@ def test_files_of_ranks_are_together_the_file_of_one_process(name, tmp_path, mon
     assert len(files) >= 2
     assert files == [tmp_path / file for file in names[:-1]]
     assert_whole(tmp_path / "parts.pvtu", tmp_path / "whole.vtu")
+
+
+@pytest.mark.parametrize("name", ["held by contact alone", "mortar", "several steps", "coupled unknowns", "twist"])
+def test_files_of_text_are_those_of_one_process_row_by_row(name, tmp_path, monkeypatch):
+    """However many rows are asked for at a time; the first process recovers nothing of all nodes."""
+    history = solved(name, RanksInTurn(RANKS), monkeypatch)
+    prints, fields, ranks = (
+        all_prints(history.model, len(history.steps)),
+        Fields(history.model),
+        fields_on_ranks(history),
+    )
+    folders = [tmp_path / way for way in ("whole", "rows", "ranks")]
+    for folder, rows, of in zip(folders, (1 << 16, 7, 7), (fields, fields, ranks), strict=True):
+        folder.mkdir()
+        monkeypatch.setattr(by_rows, "_AT_ONCE", rows)
+        write_frd(history, of, folder / "x.frd")
+        write_dat(history, of, prints, folder / "x.dat")
+    for file in ("x.frd", "x.dat"):
+        whole, rows, of_ranks = (folder / file for folder in folders)
+        assert whole.read_bytes() == rows.read_bytes()
+        assert not differing(whole, of_ranks)
 
 
 def test_paraview_reads_the_index(tmp_path, monkeypatch):

@@ -22,12 +22,14 @@ class FieldShare(PartOfBodies):
     Attributes
     ----------
     own : (k,) cells that the rank writes
+    cell_numbers : (k,) of the cells in the mesh, ascending
     numbers : (bodies of the part,) of the bodies in the model
     node_numbers : (m,) what results call the nodes
     loads : temperatures at the nodes, (m,)
     """
 
     own: BoolArray
+    cell_numbers: IntArray
     numbers: IntArray
     node_numbers: IntArray
     loads: tuple[Load, ...]
@@ -71,6 +73,7 @@ def shares(model: Model, owner: IntArray, ranks: int) -> Iterator[FieldShare]:
             kind=model.kind,
             thickness=model.thickness,
             own=np.concatenate([own[near] for own, near in zip(mine, here, strict=True)]),
+            cell_numbers=np.flatnonzero(np.concatenate(here)),
             numbers=numbers,
             node_numbers=mesh.labels[nodes],
             loads=tuple(replace(load, temperature=at[nodes]) for load, at in heats.items() if load.on in names),

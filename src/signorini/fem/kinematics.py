@@ -137,9 +137,7 @@ def groups(space: Space, model: Model) -> Iterator[Group]:
     owner = model.body_of_cells()
     for block in space.blocks:
         body = owner[block.first : block.first + len(block.cells)]
-        own = np.array([body.formulation for body in model.bodies])
-        if block.family not in BRICKS:
-            own[own == "incompatible"] = "standard"
+        own = np.array([body.formulation_in(block.family) for body in model.bodies])
         for formulation in np.unique(own):
             every = np.flatnonzero((own == formulation)[body])
             for index in np.split(every, range(CELLS_AT_ONCE, len(every), CELLS_AT_ONCE)):

@@ -19,6 +19,7 @@ Formulation = Literal["standard", "incompatible", "mean dilatation"]
 """Of cells."""
 
 _LINEAR = {"triangle", "quad", "tetra", "hexahedron", "wedge"}
+_BRICKS = {"quad", "hexahedron"}  # which have internal modes
 _SIMPLICES = {"triangle", "tetra"}
 _MOST_WEDGES = (
     0.1  # of the cells of a body: limit loads are up to 4 % higher then, and bodies of wedges alone have none
@@ -99,6 +100,17 @@ class Body:
             return self
         standard = kind == "plane stress" or "wedge15" in families
         return replace(self, formulation="standard" if standard else "mean dilatation")
+
+    def formulation_in(self, family: str) -> Formulation:
+        """The formulation of its cells of a family: those that have no internal modes are standard.
+
+        Parameters
+        ----------
+        family : of cells
+        """
+        if self.formulation is None or (self.formulation == "incompatible" and family not in _BRICKS):
+            return "standard"
+        return self.formulation
 
     def check_flow(self, where: Where, kind: str, families: Mapping[str, int]) -> None:
         """Refuse what a body that yields cannot be.

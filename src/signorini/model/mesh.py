@@ -236,9 +236,23 @@ class Mesh:
         """What results call the cells, (m,)."""
         return np.arange(1, self.number_of_cells + 1) if self.cell_numbers is None else self.cell_numbers
 
+    def labels_of(self, nodes: IntArray) -> IntArray:
+        """What results call some nodes (k,)."""
+        numbers = stored(self, "node_numbers")
+        return nodes + 1 if numbers is None else np.asarray(numbers[nodes])
+
+    def cell_labels_of(self, cells: IntArray) -> IntArray:
+        """What results call some cells (k,)."""
+        numbers = stored(self, "cell_numbers")
+        return cells + 1 if numbers is None else np.asarray(numbers[cells])
+
+    def nodes_of_cells(self, family: str, rows: IntArray) -> IntArray:
+        """(k, corners) Nodes of some cells of a family, counted in it."""
+        return np.asarray(stored(self, "cells")[family][rows])
+
     def by_family(self, values: IntArray) -> list[IntArray]:
         """Values of all cells, (m,), in parts for the families."""
-        return np.split(values, np.cumsum([len(nodes) for nodes in self.cells.values()])[:-1])
+        return np.split(values, np.cumsum([count for count, _ in self.shapes.values()])[:-1])
 
     def cell_name(self, cell: int) -> str:
         """What messages call a cell: ``"cell 12 (quad)"``."""

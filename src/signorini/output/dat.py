@@ -4,18 +4,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterator, Sequence, Set
+from collections.abc import Container, Iterator
 from pathlib import Path
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, padded
+from signorini.arrays import Array, IntArray, distinct, padded, stored
 from signorini.model.model import Model
 from signorini.model.outputs import Part
 from signorini.model.prints import Prints, Table
 from signorini.output.atomic_write import atomic_write
+from signorini.output.by_rows import FieldsByRows, portions
 from signorini.output.ccx_contact import slave_energies, slave_values
-from signorini.output.fields import Fields
 from signorini.solution.history import History
 from signorini.solution.results import ContactResult, StepResult
 
@@ -30,7 +30,7 @@ _CELL_HEADS = {
 _FORCES = {"CF": "surface force", "CFN": "normal surface force", "CFS": "shear surface force"}
 
 
-def write_dat(history: History, fields: Fields, prints: Prints, path: Path) -> None:
+def write_dat(history: History, fields: FieldsByRows, prints: Prints, path: Path) -> None:
     """Write the tables of all steps; nodes and elements bear their numbers in the deck.
 
     Values of elements are at the quadrature points of this package, not of CalculiX; those of contact are at the nodes
@@ -50,7 +50,7 @@ def write_dat(history: History, fields: Fields, prints: Prints, path: Path) -> N
             if own:
                 file.write(f"\n{'':24s}S T E P {number + 1:7d}\n\n\n{'':32s}INCREMENT {step.increments:5d}\n\n")
             for table in own:
-                lines = _lines(fields, step, table, fortran(prints.times[number]))
+                lines = _lines(history.model, fields, step, table, fortran(prints.times[number]))
                 file.writelines(f"{line}\n" for line in lines)
 
 
@@ -69,16 +69,15 @@ def fortran(value: float) -> str:
     return f"{'-' if value < 0.0 else ' '}0.{digits:07d}E{exponent:+03d}"
 
 
-def _lines(fields: Fields, step: StepResult, table: Table, time: str) -> Iterator[str]:
-    model, end = fields.model, f"for set {table.place} and time {time}"
+def _lines(model: Model, fields: FieldsByRows, step: StepResult, table: Table, time: str) -> Iterator[str]:
+    end = f"for set {table.place} and time {time}"
     for quantity in table.quantities:
         if table.of == "nodes":
             yield from _nodes(model, step, table, quantity, end)
         elif table.of == "cells":
-            values = _in_cells(fields, step, quantity)
-            if values is not None:
+            if quantity in ("S", "E") or step.plastic is not None:
                 yield from ("", f" {_CELL_HEADS[quantity]}{end}", "")
-                yield from _rows_of_cells(model, values, set(table.members.tolist()))
+                yield from _rows_of_cells(model, fields, step, quantity, table.members)
         elif quantity in _FORCES:
             yield from _forces(step.contacts[int(table.members[0])], quantity, f"{table.place} and time {time}")
         else:
@@ -86,49 +85,50 @@ def _lines(fields: Fields, step: StepResult, table: Table, time: str) -> Iterato
 
 
 def _nodes(model: Model, step: StepResult, table: Table, quantity: str, end: str) -> Iterator[str]:
-    values = step.displacement if quantity == "U" else step.external
-    rows = padded(values[table.members], 3)
-    total = rows.sum(axis=0)
-    for row, own in table.axes.items():
-        rows[row, : len(own)] = own @ rows[row, : len(own)]
-    turned = np.flatnonzero(np.isin(table.members, list(table.rotations)))
-    for row in turned.tolist():
-        body = step.rigid_bodies[table.rotations[int(table.members[row])]]
-        rows[row] = _about(body.rotation if quantity == "U" else body.moment, twists=model.twists)
-    if table.totals != "only" or quantity == "U":
-        head = "displacements (vx,vy,vz)" if quantity == "U" else "forces (fx,fy,fz)"
-        yield from _numbered(f" {head} {end}", model.mesh.labels[table.members], rows, table.axes)
+    values = stored(step, "displacement" if quantity == "U" else "external")
+    shown, total = table.totals != "only" or quantity == "U", np.zeros(3)
+    if shown:
+        yield from ("", f" {'displacements (vx,vy,vz)' if quantity == 'U' else 'forces (fx,fy,fz)'} {end}", "")
+    for some in portions(len(table.members)):
+        members = table.members[some]
+        rows = padded(values[members], 3)
+        total = np.vstack([total, rows]).sum(axis=0)  # row by row, however many are added at a time
+        axes = {row - int(some[0]): own for row, own in table.axes.items() if some[0] <= row <= some[-1]}
+        for row, own in axes.items():
+            rows[row, : len(own)] = own @ rows[row, : len(own)]
+        turned = np.flatnonzero(np.isin(members, list(table.rotations)))
+        for row in turned.tolist():
+            body = step.rigid_bodies[table.rotations[int(members[row])]]
+            rows[row] = _about(body.rotation if quantity == "U" else body.moment, twists=model.twists)
+        if shown:
+            yield from _rows(model.mesh.labels_of(members), rows, axes)
     if table.totals != "no" and quantity == "RF":
         yield from _single(f" total force (fx,fy,fz) {end}", total)
 
 
-def _in_cells(fields: Fields, step: StepResult, quantity: str) -> Sequence[tuple[IntArray, Array]] | None:
-    """Values (m, p, k) at the points of cells (m,), group by group; None of plastic strains where no body yields."""
-    if quantity == "S":
-        return [(cells, stress[..., _TENSOR_ORDER]) for cells, stress in fields.cell_stresses(step)]
-    if quantity == "E":
-        return [(cells, strain[..., _TENSOR_ORDER]) for cells, strain in fields.cell_strains(step)]
-    found = []
-    for cells, plastic in fields.cell_plastic(step):
-        values = plastic.equivalent[:, None] if quantity == "PEEQ" else plastic.strain[:, _TENSOR_ORDER]
-        found.append((cells, values.reshape(len(cells), -1, values.shape[1])))
-    return found or None
-
-
-def _rows_of_cells(model: Model, values: Sequence[tuple[IntArray, Array]], own: Set[int]) -> Iterator[str]:
-    """A row for every point of some of the cells."""
-    labels = model.mesh.cell_labels
-    for cells, found in values:
-        for cell, points in zip(cells.tolist(), found, strict=True):
-            if cell in own:
-                yield from (f"{labels[cell]:10d}{q:4d} {_spelled(row)}" for q, row in enumerate(points, start=1))
+def _rows_of_cells(
+    model: Model, fields: FieldsByRows, step: StepResult, quantity: str, members: IntArray
+) -> Iterator[str]:
+    """A row for every point of some of the cells, by family and formulation."""
+    mesh, cells = model.mesh, distinct(members)
+    families = np.searchsorted(np.cumsum([count for count, _ in mesh.shapes.values()]), cells, side="right")
+    for k, family in enumerate(mesh.shapes):
+        own, ways = cells[families == k], np.array([body.formulation_in(family) for body in model.bodies])
+        if (ways != ways[0]).any():
+            own = own[np.argsort(ways[model.body_of_cells()[own]], kind="stable")]
+        for some in portions(len(own)):
+            found = fields.in_cells(step, quantity, own[some])
+            if found.shape[-1] == len(_TENSOR_ORDER):
+                found = found[..., _TENSOR_ORDER]
+            for label, points in zip(mesh.cell_labels_of(own[some]).tolist(), found, strict=True):
+                yield from (f"{label:10d}{q:4d} {_spelled(row)}" for q, row in enumerate(points, start=1))
 
 
 def _contacts(model: Model, step: StepResult, table: Table, quantity: str, time: str) -> Iterator[str]:
     """One table for all contacts."""
     end = f"for all contact elements and time{time}"
     pairs = [(model.contacts[i], step.contacts[i]) for i in table.members.tolist()]
-    labels = model.mesh.labels[np.concatenate([result.node for _, result in pairs])]
+    labels = model.mesh.labels_of(np.concatenate([result.node for _, result in pairs]))
     if quantity == "CELS":
         energies = np.concatenate([slave_energies(*pair) for pair in pairs])
         if table.totals != "only":
@@ -178,9 +178,14 @@ def _in_space(vector: Array) -> Array:
     return padded(vector[None], 3)[0]
 
 
-def _numbered(head: str, labels: IntArray, rows: Array, local: Container[int] = ()) -> Iterator[str]:
-    """A table of rows that begin with a number, and end in L where they are ``local``: along axes of their own."""
+def _numbered(head: str, labels: IntArray, rows: Array) -> Iterator[str]:
+    """A table of rows that begin with a number."""
     yield from ("", head, "")
+    yield from _rows(labels, rows)
+
+
+def _rows(labels: IntArray, rows: Array, local: Container[int] = ()) -> Iterator[str]:
+    """Rows that begin with a number, and end in L where they are ``local``: along axes of their own."""
     for i, (label, row) in enumerate(zip(labels.tolist(), rows, strict=True)):
         yield f"{label:10d} {_spelled(row)}{' L' if i in local else ''}"
 

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray, IntArray, places_among
 from signorini.fem.space import Space
 from signorini.fem.stress import (
     BodyStress,
@@ -120,7 +120,7 @@ class Fields:
         self.model = model
         self._shared: frozenset[State] = frozenset(shared)
         self._kept: dict[State, list[BodyStress]] = {}
-        self._points: tuple[StepResult, list[tuple[IntArray, Array]]] | None = None
+        self._points: tuple[State, dict[str, list[tuple[IntArray, Array]]]] | None = None
         self._flow: tuple[State, list[PlasticFields]] | None = None
         self._moved: tuple[Array, Model, Space] | None = None
 
@@ -150,25 +150,57 @@ class Fields:
         """Keep the stresses of a state, and of others those that several files share."""
         self._kept = {end: stresses for end, stresses in self._kept.items() if end in self._shared} | {state: found}
 
-    def cell_stresses(self, step: StepResult) -> list[tuple[IntArray, Array]]:
-        """Stresses in the cells, see :func:`signorini.fem.stress.point_stresses`; those of one step are kept."""
-        if self._points is None or self._points[0] is not step:
-            self._points = step, list(point_stresses(self._deformed(step)))
-        return self._points[1]
+    def at_nodes(self, state: State, what: str, nodes: IntArray) -> Array:
+        """Values at some nodes, see :class:`signorini.output.by_rows.FieldsByRows`; zeros at nodes of no cell.
 
-    def cell_strains(self, step: StepResult) -> Iterator[tuple[IntArray, Array]]:
-        """Strains in the cells, see :func:`signorini.fem.stress.point_strains`."""
-        yield from point_strains(self._deformed(step))
+        Parameters
+        ----------
+        state, what, nodes : as there
+        """
+        parts = [(part.nodes, part.stress) for part in self.stresses(state)]
+        if what == "PEEQ":
+            flowed = [own.equivalent[:, None] for own in self.plastic(state)]
+            parts = [(own, values) for (own, _), values in zip(parts, flowed, strict=True)]
+        total, count = np.zeros((len(nodes), parts[0][1].shape[1])), np.zeros((len(nodes), 1))
+        for own, values in parts:
+            here, place = places_among(nodes, own)
+            total[here] += values[place]
+            count[here] += 1.0
+        return np.asarray(total / np.maximum(count, 1.0))
+
+    def in_cells(self, state: State, what: str, cells: IntArray) -> Array:
+        """Values in some cells, see :class:`signorini.output.by_rows.FieldsByRows`; those of one state are kept.
+
+        Parameters
+        ----------
+        state, what, cells : as there
+        """
+        if self._points is None or self._points[0] is not state:
+            self._points = state, {}
+        if what not in self._points[1]:
+            self._points[1][what] = list(self._in_all_cells(state, what))
+        lowest, highest = cells.min(), cells.max()
+        groups = [each for each in self._points[1][what] if each[0][0] <= highest and each[0][-1] >= lowest]
+        found = [(values, *places_among(cells, numbers)) for numbers, values in groups]
+        found = [(values, here, place) for values, here, place in found if len(place)]
+        result = np.zeros((len(cells), *found[0][0].shape[1:]))
+        for values, here, place in found:
+            result[here] = values[place]
+        return result
+
+    def _in_all_cells(self, state: State, what: str) -> Iterator[tuple[IntArray, Array]]:
+        """Numbers (m,) of all cells, group by group, and values (m, p, c) there."""
+        if what in ("S", "E"):
+            yield from (point_stresses if what == "S" else point_strains)(self._deformed(state))
+        elif state.plastic is not None:
+            for cells, flow in point_fields(self.space, self.model, state.plastic.state):
+                values = flow.equivalent[:, None] if what == "PEEQ" else flow.strain
+                yield cells, values.reshape(len(cells), -1, values.shape[1])
 
     def _deformed(self, state: State) -> DeformedBodies:
         """The bodies in a state whose displacement is known."""
         assert state.displacement is not None
         return DeformedBodies.of(*self.on(state), state.displacement, state.factors, self.plastic_strains(state))
-
-    def cell_plastic(self, step: StepResult) -> Iterator[tuple[IntArray, PlasticFields]]:
-        """Plastic fields in the cells, see :func:`signorini.plasticity.fields.point_fields`; none where none yields."""
-        if step.plastic is not None:
-            yield from point_fields(self.space, self.model, step.plastic.state)
 
     def plastic_strains(self, state: State) -> dict[str, Array]:
         """Plastic strains at the quadrature points of every family, where bodies yield."""

@@ -32,7 +32,7 @@ from signorini.output.fields import Fields
 from signorini.output.frd import write_frd
 from signorini.output.history_csv import write_history
 from signorini.output.room import results_bytes, shared_states
-from signorini.output.series import frames, write_series, write_state
+from signorini.output.series import frames, with_ranks, write_series, write_state
 from signorini.output.summary import summary
 from signorini.output.vtu import FIELDS, write_bodies, write_surfaces
 from signorini.solution.history import History
@@ -286,9 +286,7 @@ class Publisher:
         if not history.steps and stored(history, "escape") is None:
             return []
         if history.backend in ON_RANKS and self._ranks is None:
-            from signorini.output.rank_files import fields_on_ranks
-
-            self._ranks = fields_on_ranks(history)
+            self._ranks = with_ranks(history)
         parts = [lambda: self._write_fields(history, aside), lambda: self._write_archive(history, aside)]
         # ranks hear from one thread
         return [name for names in shared(parts, worth=self._ranks is None) for name in names]
@@ -311,10 +309,11 @@ class Publisher:
         fields = Fields(history.model, shared=shared)
         names = _write_tables(history, fields, aside, done=self._written, compress=self.compress, ranks=self._ranks)
         if prints is not None:
-            write_frd(history, fields, aside / "solution.frd", prints.times)
+            by_rows = self._ranks or fields
+            write_frd(history, by_rows, aside / "solution.frd", prints.times)
             names.append("solution.frd")
             if prints.tables:
-                write_dat(history, fields, prints, aside / "solution.dat")
+                write_dat(history, by_rows, prints, aside / "solution.dat")
                 names.append("solution.dat")
         return names
 

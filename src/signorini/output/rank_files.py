@@ -6,12 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 from xml.etree import ElementTree
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, stored
+from signorini.arrays import Array, BoolArray, IntArray, among, places_among, stored
 from signorini.distributed.kept_rows import RowsKept, rows_of_all
 from signorini.distributed.mesh_rows import at_hand
 from signorini.distributed.ranks import Team, several_ranks
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 _KINDS = {"f": "Float", "i": "Int", "u": "UInt"}  # what VTK calls kinds of numbers, before their bits
 
+Of = Literal["nodes", "cells"]
+"""Of what values are asked for."""
+
 Arrays = Mapping[str, list[tuple[str, str, int]]]
 """What files hold, "points" and "cells": name, type and components of every array."""
 
@@ -40,6 +43,7 @@ class OwnShare:
     Attributes
     ----------
     nodes : (m,) of the mesh, ascending
+    state : whose displacements and forces are known at these
 
     Parameters
     ----------
@@ -55,11 +59,30 @@ class OwnShare:
         self._kept = [
             own[body == i] == i for i in range(len(share.bodies)) for body, own in families if (body == i).any()
         ]
+        parts = zip(share.cells.values(), written, strict=True)
+        nodes = np.flatnonzero(among((cells[own >= 0] for cells, own in parts), len(share.nodes)))
+        self._own = {  # of the mesh, and of the share
+            "nodes": (share.nodes[nodes], nodes),
+            "cells": (share.cell_numbers[share.own], np.flatnonzero(share.own)),
+        }
+        self.state: State
 
-    def at(self, state: State) -> BodyFields:
-        """Own cells in a state that knows displacements and forces at the nodes of the share."""
-        fields = self._fields.at(state, strained=True).among(self._kept)
+    def fields(self) -> BodyFields:
+        """Own cells in the state."""
+        fields = self._fields.at(self.state, strained=True).among(self._kept)
         return replace(fields, body=tuple(self._numbers[body] for body in fields.body))
+
+    def values(self, of: Of, what: str, numbers: IntArray) -> tuple[BoolArray, Array] | None:
+        """Which of some cells of the mesh are own ones, or nodes are of such, and values there; None where none is.
+
+        Parameters
+        ----------
+        of, what, numbers : see :class:`signorini.output.by_rows.FieldsByRows`
+        """
+        own, at = self._own[of]
+        here, place = places_among(numbers, own)
+        find = self._fields.at_nodes if of == "nodes" else self._fields.in_cells
+        return (here, find(self.state, what, at[place])) if here.any() else None
 
 
 class FieldsOnRanks:
@@ -76,6 +99,7 @@ class FieldsOnRanks:
         self._team, self._number = team, team.kept(self)
         self._nodes: list[IntArray] = []
         self._writing: list[bool] = []
+        self._told: State | None = None
         with at_hand(model.mesh):
             team.everywhere(_hold, self._number, pieces=self._kept(shares(model, owner, team.size)))
 
@@ -111,15 +135,12 @@ class FieldsOnRanks:
         OSError
             If a rank cannot write its file.
         """
+        self._tell(state)
         *files, _ = self.files(name)
         (folder / files[0]).parent.mkdir(exist_ok=True)
-        paths, u = iter([str((folder / file).resolve()) for file in files]), stored(state, "displacement")
-        kept = isinstance(u, RowsKept)  # then ranks have it of each other
-        asked = (
-            (_part_of(state, None if kept else u[nodes], nodes), next(paths)) if writes else None
-            for nodes, writes in self._asked()
-        )
-        found = self._team.everywhere(_write, self._number, u.place if kept else None, compress, pieces=asked)
+        paths = iter([str((folder / file).resolve()) for file in files])
+        asked = (next(paths) if writes else None for writes in self._writing)
+        found = self._team.everywhere(_write, self._number, compress, pieces=asked)
         for error in found:
             if isinstance(error, OSError):
                 raise error
@@ -128,8 +149,44 @@ class FieldsOnRanks:
         with atomic_write(index) as aside:
             aside.write_text(indexed(next(arrays for arrays in found if arrays), sources) + "\n", encoding="utf-8")
 
-    def _asked(self) -> Iterator[tuple[IntArray, bool]]:
-        return zip(self._nodes, self._writing, strict=True)
+    def at_nodes(self, state: State, what: str, nodes: IntArray) -> Array:
+        """Values at some nodes, see :class:`signorini.output.by_rows.FieldsByRows`.
+
+        Parameters
+        ----------
+        state, what, nodes : as there
+        """
+        return self._values(state, "nodes", what, nodes)
+
+    def in_cells(self, state: State, what: str, cells: IntArray) -> Array:
+        """Values in some cells, see :class:`signorini.output.by_rows.FieldsByRows`.
+
+        Parameters
+        ----------
+        state, what, cells : as there
+        """
+        return self._values(state, "cells", what, cells)
+
+    def _values(self, state: State, of: Of, what: str, numbers: IntArray) -> Array:
+        """Values of ranks that have them; nodes between their cells have the same from each, up to rounding."""
+        self._tell(state)
+        found = [each for each in self._team.everywhere(_values, self._number, of, what, numbers) if each]
+        result = np.zeros((len(numbers), *found[0][1].shape[1:]))
+        for here, values in found:
+            result[here] = values
+        return result
+
+    def _tell(self, state: State) -> None:
+        """Have ranks know a state at the nodes of their shares, unless it is the last one that they were told."""
+        if self._told is state:
+            return
+        self._told, u = state, stored(state, "displacement")
+        kept = isinstance(u, RowsKept)  # then ranks have it of each other
+        parts = (
+            _part_of(state, None if kept else u[nodes], nodes) if writes else None
+            for nodes, writes in zip(self._nodes, self._writing, strict=True)
+        )
+        self._team.everywhere(_hear, self._number, u.place if kept else None, pieces=parts)
 
 
 def fields_on_ranks(history: History) -> FieldsOnRanks | None:
@@ -170,20 +227,30 @@ def _hold(team: Team, share: FieldShare, number: int) -> None:
         team.held[number] = OwnShare(share)
 
 
-def _write(
-    team: Team, asked: tuple[Instant, str] | None, number: int, moved: tuple[int, IntArray] | None, compress: bool
-) -> Arrays | OSError | None:
-    """Write own cells, and say what arrays the file holds, or why it cannot be written.
+def _hear(team: Team, state: Instant | None, number: int, moved: tuple[int, IntArray] | None) -> None:
+    """Know a state at the nodes of the share.
 
     Where ranks keep displacements of all nodes, ``moved`` says where, see `rows_of_all`.
     """
     own: OwnShare | None = team.held.get(number)
     nodes = np.zeros(0, dtype=np.int64) if own is None else own.nodes
     u = None if moved is None else rows_of_all(team, *moved, nodes)
-    if asked is None or own is None:
+    if own is not None and state is not None:
+        own.state = state if u is None else replace(state, displacement=u)
+
+
+def _values(team: Team, number: int, of: Of, what: str, numbers: IntArray) -> tuple[BoolArray, Array] | None:
+    """Values of own nodes or cells among some, see `OwnShare.values`."""
+    own: OwnShare | None = team.held.get(number)
+    return None if own is None else own.values(of, what, numbers)
+
+
+def _write(team: Team, path: str | None, number: int, compress: bool) -> Arrays | OSError | None:
+    """Write own cells, and say what arrays the file holds, or why it cannot be written."""
+    own: OwnShare | None = team.held.get(number)
+    if path is None or own is None:
         return None
-    state, path = asked
-    grid = grid_of(own.at(state if u is None else replace(state, displacement=u)))
+    grid = grid_of(own.fields())
     try:
         write_grid(grid, Path(path), compress=compress)
     except OSError as error:  # of a full disk the first rank tells, and the run goes on

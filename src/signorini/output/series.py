@@ -151,13 +151,22 @@ def write_pvd(history: History, fields: Fields, path: Path, *, compress: bool = 
         If nothing was solved.
     """
     _ = history.last
-    surfaces, ranks = f"{path.stem}_contact", None
-    if history.backend in ON_RANKS:
-        from signorini.output.rank_files import fields_on_ranks
+    states, names = frames(history), {"bodies": path.stem, "surfaces": f"{path.stem}_contact"}
+    write_series(fields, states, path.parent, **names, compress=compress, ranks=with_ranks(history))
 
-        ranks = fields_on_ranks(history)
-    states, names = frames(history), {"bodies": path.stem, "surfaces": surfaces}
-    write_series(fields, states, path.parent, **names, compress=compress, ranks=ranks)
+
+def with_ranks(history: History) -> FieldsOnRanks | None:
+    """The bodies where several ranks have them, see :func:`signorini.output.rank_files.fields_on_ranks`; or None.
+
+    Parameters
+    ----------
+    history : of any back end: those of one process import nothing
+    """
+    if history.backend not in ON_RANKS:
+        return None
+    from signorini.output.rank_files import fields_on_ranks
+
+    return fields_on_ranks(history)
 
 
 def listed(entries: Sequence[tuple[float, str]]) -> str:

@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Collection, Iterator, Sequence
 from itertools import zip_longest
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, largest, stored
 from signorini.solution.accuracy import AccuracyResult
 from signorini.solution.certificate import TOLERANCE
 from signorini.solution.fatigue_result import FatigueResult
@@ -90,7 +90,7 @@ def _step_lines(step: StepResult, number: int) -> list[str]:
     pressed = [float((abs(contact.pressure) * contact.area).sum()) for contact in step.contacts]
     held = [float(abs(force).max()) for force in step.reactions.values()]
     noise = _ROUNDING_TOL * max([*pressed, *held], default=0.0)
-    still = _ROUNDING_TOL * float(abs(step.displacement).max(initial=0.0))
+    still = _ROUNDING_TOL * largest(stored(step, "displacement"))
     rows = [
         (
             contact.name,
