@@ -10,6 +10,7 @@ CPU seconds, one thread, code warm, every run in a process of its own.
 
 from __future__ import annotations
 
+import argparse
 import json
 import time
 from typing import Any
@@ -84,18 +85,26 @@ def row(found: dict[str, Any]) -> list[object]:
     ]
 
 
+def shape(words: str) -> str:
+    """A shape as it was given; argparse says what is wrong with another."""
+    pairs, _, height = words.partition("x")
+    if not (pairs.isdigit() and height.isdigit() and int(pairs) > 1 and int(height) > 0):
+        raise argparse.ArgumentTypeError(f"{words!r} is no shape; expected PAIRSxHEIGHT, as 1000x500")
+    return words
+
+
 def main() -> None:
     parser = command.parser(__doc__, dry=True)
-    parser.add_argument("--shapes", nargs="+", default=list(SHAPES))
+    parser.add_argument("--shapes", nargs="+", type=shape, default=list(SHAPES))
     parser.add_argument("--one", action="store_true", help="measure in this process")
     options = parser.parse_args()
     if options.one:
-        print(json.dumps([measure(*map(int, shape.split("x"))) for shape in options.shapes]))
+        print(json.dumps([measure(*map(int, each.split("x"))) for each in options.shapes]))
         return
     found = []
-    for shape in options.shapes:
-        found += page.measured("benchmarks.wide", "--shapes", shape, keep=False)
-        print(f"{shape}: {found[-1]['seconds']:.1f} s", flush=True)
+    for each in options.shapes:
+        found += page.measured("benchmarks.wide", "--shapes", each, keep=False)
+        print(f"{each}: {found[-1]['seconds']:.1f} s", flush=True)
     text = f"{page.table(HEAD, [row(each) for each in found])}\n\nCPU seconds, one thread, {page.machine()}."
     command.publish(options, "wide", text)
 

@@ -23,7 +23,6 @@ PIVOT_TOL = 1e-9
 REFRESH = 400
 """Changes of state after which the system is factorised afresh."""
 
-
 _SCATTERED = 3
 """Forces of all to one that acts up to which a product reads all of the compliance: gathered rows are written, too."""
 
@@ -174,9 +173,10 @@ class StateInverse:
         if not len(new):
             return True
         m, n, known, k = self._count, self._n, self.unknowns, len(new)
-        felt = self._felt(new)  # A and R are symmetric: what forces of theirs move is what their equations see
+        felt = self._felt(new)  # and what their forces move: the system is symmetric but for slopes
         columns, rows = felt.copy(), felt[:, known]
         normal = np.flatnonzero(new < n)
+        normal = normal[self.slope[new[normal]] != 0.0]
         columns[normal] += self.slope[new[normal], None] * self._felt(n + new[normal])
         normal = np.flatnonzero(known < n)
         rows[:, normal] += felt[:, n + known[normal]] * self.slope[known[normal]]
