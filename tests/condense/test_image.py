@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
-from signorini.condense.operator import InterfaceOperator
+from signorini.condense.operator import InterfaceOperator, Single
 from signorini.gallery.blocks import dragged_block, four_blocks
 from signorini.gallery.cubes import cubes
 
@@ -61,6 +61,16 @@ def test_locked_rows_stay_exactly_zero(seed, locked):
     for image in (posed, InterfaceOperator.of_compliance(posed.A, motions, posed.R)):
         assert np.flatnonzero(image.still).tolist() == list(locked)
         assert not image.W[list(locked)].any()
+
+
+def test_what_far_pairs_feel_of_each_other_leaves_no_numbers_that_processors_are_slow_with():
+    """As in a strip that its base holds: exp(-133) from end to end, which single precision does not know."""
+    place = np.arange(400.0)
+    A = np.exp(-np.abs(place[:, None] - place) / 3.0)
+    single, x = Single.of(A, 0.1), np.random.default_rng(0).normal(size=len(A))
+    assert np.abs(single.matrix).min() > 1e-19  # so that products are above 1e-38
+    np.testing.assert_allclose(single.product(x), A @ x, atol=1e-5)
+    np.testing.assert_allclose(single.solve(A @ x + 0.1 * x), x, atol=1e-4)
 
 
 def followed_exactly():
