@@ -68,6 +68,8 @@ def dissect(graph: Graph, along: Int32Array, first: int, whole: int) -> tuple[In
     first : how many of the directions are for pieces of any size; the others for `AXES_SIZE` ones
     whole : vertices of pieces that are not cut: up to it
     """
+    # of an index with a sign Numba asks whether it counts from the end: a fifth longer
+    graph = Graph(graph.indptr.view(np.uint32), graph.indices.view(np.uint32))
     directions, n = along.shape
     order, ends = np.empty(n, np.int32), np.zeros(n, np.int32)
     label, place = np.zeros(n, np.int32), np.empty(n, np.int32)
@@ -161,11 +163,12 @@ def _best_cut(
         place[line[q]] = q
     for q in range(size):
         v = line[q]
-        last = begin = q
+        last = begin = np.int32(q)
         for p in range(indptr[v], indptr[v + 1]):
             w = indices[p]
             if label[w] == mine:
-                last, begin = max(last, place[w]), min(begin, place[w])
+                at = place[w]
+                last, begin = max(last, at), min(begin, at)
         change[NEAR_SIDE, q + 1] += 1
         change[NEAR_SIDE, last + 1] -= 1
         change[FAR_SIDE, begin + 1] += 1
@@ -301,7 +304,7 @@ def _move(
     moves.locked[v] = stamp
     sides[side] += 1
     for p in range(indptr[v], indptr[v + 1]):
-        u = indices[p]
+        u = np.int32(indices[p])
         where = label[u] - base
         if where == SEPARATOR:  # once it leaves for the other side, v comes back
             moves.gain[1 - side, u] -= 1
