@@ -18,8 +18,10 @@ from signorini.linalg._graph import Elimination
 from signorini.linalg.ordering import nested_dissection, unknowns
 from signorini.linalg.system import NodeGraph, System, node_graph
 
-SHARED_WORK = 1e9
-"""Multiplications and additions from which threads share a factorisation: tens of milliseconds of one thread."""
+SHARED_WORK = 3e9
+"""Multiplications and additions from which threads share a factorisation: two tenths of a second of one thread.
+
+Below it two gain a twentieth of a solve, and tasks cost one thread a quarter of the factorisation."""
 
 BRANCHES = 32
 """Threads take subtrees of at most this part of all work: enough for some sixteen threads."""
