@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -20,8 +20,21 @@ _ENTRIES = 40.0
 """Numbers held at the worst time of the contact solve, of z^(4/3): their pages are touched before a long run."""
 
 
-def cylinder_ratios(dofs: int, *, timer: Timer = time.perf_counter) -> Iterator[dict[str, Any]]:
+def cylinder_ratios(
+    dofs: int,
+    *,
+    timer: Timer = time.perf_counter,
+    frictions: Sequence[float] = (0.0, 0.4),
+    other: str | None = None,
+) -> Iterator[dict[str, Any]]:
     """Time the cylinder with about ``dofs`` unknowns, mu = 0 and 0.4, one increment; by default on the wall.
+
+    Parameters
+    ----------
+    dofs : unknowns, about
+    timer : tells seconds
+    frictions : mu of each row
+    other : a back end whose plain solve is timed, too
 
     Yields
     ------
@@ -29,8 +42,8 @@ def cylinder_ratios(dofs: int, *, timer: Timer = time.perf_counter) -> Iterator[
     """
     refine = max(1, round(np.sqrt(dofs / (2 * 76))))
     warm_up(zhu_cylinder(refine=refine), timer)
-    for friction in (0.0, 0.4):
-        yield price("cylinder", zhu_cylinder(friction=friction, refine=refine), timer)
+    for friction in frictions:
+        yield price("cylinder", zhu_cylinder(friction=friction, refine=refine), timer, other=other)
 
 
 def cube_ratios(dofs: int, *, timer: Timer = time.perf_counter, repeats: int = REPEATS) -> Iterator[dict[str, Any]]:

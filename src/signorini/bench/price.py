@@ -36,18 +36,21 @@ def warm_up(model: Model, timer: Timer) -> None:
     _linear(*_fixed(prepared), solve_prepared(prepared).backend, timer)
 
 
-def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> dict[str, Any]:
+def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS, other: str | None = None) -> dict[str, Any]:
     """Time a model of one contact: a row of the contract; contact and linear solves interleaved, medians of repeats.
 
     name : of the row
     timer : tells seconds, on the wall or of the CPU
     repeats : as long as they take less than 40 s, but three at least
+    other : a back end whose plain solve of the same matrix is timed, too: other_seconds
     contact_seconds : all after assembly, up to tractions, displacements and the certificate
     linear_seconds : analyse, factorise and solve the same matrix with the contact nodes fixed, same back end
     ratio : of the two
     """
     contact: list[float] = []
     linear: list[float] = []
+    others: list[float] = []
+    memory = 0
     assembly: list[float] = []
     cpu: list[float] = []
     phases: list[dict[str, float]] = []
@@ -70,6 +73,9 @@ def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> d
         fixed, backend = _fixed(prepared), history.backend
         del prepared, history  # both solves find as much free memory: touching new pages costs as much as computing
         linear.append(_linear(*fixed, backend, timer))
+        memory = memory if others else peak_memory()
+        if other is not None:
+            others.append(_linear(*fixed, other, timer))
     return {
         "name": name,
         "friction": model.contacts[0].coefficient,
@@ -81,7 +87,8 @@ def price(name: str, model: Model, timer: Timer, *, repeats: int = REPEATS) -> d
         "phases": {phase: statistics.median(each[phase] for each in phases) for phase in phases[0]},
         "ratio": statistics.median(contact) / statistics.median(linear),
         "cpu_seconds": statistics.median(cpu),
-        "peak_memory_bytes": peak_memory(),
+        "peak_memory_bytes": memory,
+        **({"other_seconds": statistics.median(others)} if others else {}),
         **found,
     }
 
