@@ -68,13 +68,13 @@ def dissect(graph: Graph, along: Int32Array, first: int, whole: int) -> tuple[In
     first : how many of the directions are for pieces of any size; the others for `AXES_SIZE` ones
     whole : vertices of pieces that are not cut: up to it
     """
-    # of an index with a sign Numba asks whether it counts from the end: a fifth longer
+    # of an index with a sign Numba asks whether it counts from the end: sweeps take a fifth longer
     graph = Graph(graph.indptr.view(np.uint32), graph.indices.view(np.uint32))
     directions, n = along.shape
     order, ends = np.empty(n, np.int32), np.zeros(n, np.int32)
-    label, place = np.zeros(n, np.int32), np.empty(n, np.int32)
+    label, place = np.zeros(n, np.int32), np.empty((n, 2), np.int32)
     separator, other = np.empty(n, np.int32), np.empty(n, np.int32)
-    difference = np.empty((2, n + 2), np.int32)
+    difference = np.empty((4, n + 2), np.int32)
     entries, room = 4 * n + 1024, 3 * n
     moves = Moves(
         np.zeros((2, n), np.int32), np.zeros(n, np.int32), np.empty((2, GAINS), np.int64), np.empty(entries, np.int32),
@@ -139,40 +139,59 @@ def _cheapest(
     """The best cut of a piece along the first directions: the direction, the vertices before it, the thinner side."""
     best, chosen = np.inf, 0
     cut, thinner = 0, NEAR_SIDE
-    for k in range(many):
-        cost, where, side = _best_cut(graph, along[k, low:high], label, place, change)
-        if cost < best:
-            best, chosen, cut, thinner = cost, k, where, side
+    for first in range(0, many, 2):
+        second = min(first + 1, many - 1)
+        _sweep(graph, along[first, low:high], along[second, low:high], label, place, change)
+        for k in range(first, second + 1):
+            cost, where, side = _best_cut(high - low, change[2 * (k - first) : 2 * (k - first) + 2])
+            if cost < best:
+                best, chosen, cut, thinner = cost, k, where, side
     return chosen, cut, thinner
 
 
 @part()
-def _best_cut(
-    graph: Graph, line: Int32Array, label: Int32Array, place: Int32Array, change: Int32Array
-) -> tuple[float, int, int]:
-    """Where a piece, sorted along a direction, is cut best: the cost, the vertices before it, the thinner side.
+def _sweep(
+    graph: Graph, one: Int32Array, two: Int32Array, label: Int32Array, place: Int32Array, change: Int32Array
+) -> None:
+    """How the separators of both sides change from cut to cut of a piece, sorted along two directions: (4, .), by rows.
 
     A vertex with neighbours beyond the cut is in the separator of its side: for all cuts between it and its farthest
-    neighbour, so that differences sum up to the sizes of the separators at all cuts.
+    neighbour, so that differences sum up to the sizes of the separators at all cuts. Neighbours are looked at once for
+    both directions, and of a whole graph in its own order, in which they lie together.
     """
     indptr, indices = graph
-    size = len(line)
-    mine = label[line[0]]
+    size = len(one)
+    mine = label[one[0]]
     change[:, : size + 2] = 0
     for q in range(size):
-        place[line[q]] = q
+        place[np.uint32(one[q]), 0] = place[np.uint32(two[q]), 1] = q
     for q in range(size):
-        v = line[q]
-        last = begin = np.int32(q)
-        for p in range(indptr[v], indptr[v + 1]):
+        v = np.uint32(q) if size == len(label) else np.uint32(one[q])
+        here, there = place[v, 0], place[v, 1]
+        last = begin = here
+        end = start = there
+        for p in range(indptr[v], indptr[v + np.uint32(1)]):
             w = indices[p]
             if label[w] == mine:
-                at = place[w]
+                at, across = place[w, 0], place[w, 1]
                 last, begin = max(last, at), min(begin, at)
-        change[NEAR_SIDE, q + 1] += 1
-        change[NEAR_SIDE, last + 1] -= 1
-        change[FAR_SIDE, begin + 1] += 1
-        change[FAR_SIDE, q + 1] -= 1
+                end, start = max(end, across), min(start, across)
+        _count(change[:2], here, last, begin)
+        _count(change[2:], there, end, start)
+
+
+@part()
+def _count(change: Int32Array, here: int, last: int, begin: int) -> None:
+    """Count a vertex in the separators of the cuts between it and its neighbours, from ``begin`` to ``last``."""
+    change[NEAR_SIDE, np.uint32(here + 1)] += 1
+    change[NEAR_SIDE, np.uint32(last + 1)] -= 1
+    change[FAR_SIDE, np.uint32(begin + 1)] += 1
+    change[FAR_SIDE, np.uint32(here + 1)] -= 1
+
+
+@part()
+def _best_cut(size: int, change: Int32Array) -> tuple[float, int, int]:
+    """Where a piece is cut best along a direction: the cost, the vertices before it, the thinner side."""
     least = max(1, int(CUT_SHARE * size))
     best, cut, side = np.inf, least, NEAR_SIDE
     near = far = 0
@@ -299,12 +318,12 @@ def _move(
 ) -> int:
     """Move a vertex of the separator to a side; gives by how much the separator grows."""
     indptr, indices = graph
-    growth = -1
+    vertices, growth = indices.view(np.int32), -1  # as all who move them know them
     _note(label, v, base + side, moves)
     moves.locked[v] = stamp
     sides[side] += 1
     for p in range(indptr[v], indptr[v + 1]):
-        u = np.int32(indices[p])
+        u = vertices[p]
         where = label[u] - base
         if where == SEPARATOR:  # once it leaves for the other side, v comes back
             moves.gain[1 - side, u] -= 1
