@@ -91,9 +91,9 @@ def strip():
 
 def half_ring():
     """One of two sectors of a ring: pads hold it from outside and press it from inside, far from the sides."""
-    arc = annulus(inner=1.0, outer=1.2, n_radial=3, n_angular=800, angle=180.0)
+    arc = annulus(inner=1.0, outer=1.5, n_radial=4, n_angular=400, angle=180.0)
     edges = {side: arc.boundaries[side] for side in ("start", "end")}
-    edges |= {f"patch {side}": arc.boundaries[side][390:410] for side in ("inner", "outer")}
+    edges |= {f"patch {side}": arc.boundaries[side][190:210] for side in ("inner", "outer")}
     pad = annulus(inner=0.9, outer=1.0, n_radial=2, n_angular=4, angle=2.0)
     turn = np.radians(89.0)
     away = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
