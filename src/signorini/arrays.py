@@ -92,6 +92,16 @@ def replaced(data: Data, **others: Any) -> Data:
     ----------
     data : of a dataclass
     others : fields that change
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True)
+    ... class Result:
+    ...     name: str
+    ...     values: Array
+    >>> replaced(Result("one", np.ones(2)), name="other")
+    Result(name='other', values=array([1., 1.]))
     """
     known: Any = data
     return type(data)(**{field.name: stored(data, field.name) for field in fields(known)} | others)
@@ -103,6 +113,11 @@ def in_blocks(values: Any) -> Iterator[tuple[int, NDArray[Any]]]:
     Parameters
     ----------
     values : the array
+
+    Examples
+    --------
+    >>> list(in_blocks(np.ones(2)))
+    [(0, array([1., 1.]))]
     """
     yield from [(0, values)] if isinstance(values, np.ndarray) else values.blocks()
 
