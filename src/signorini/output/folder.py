@@ -375,7 +375,8 @@ def _write_last(
         if not judged and (folder / f"{last}.vtu").exists():
             shutil.copyfile(folder / f"{last}.vtu", folder / "solution.vtu")
         else:
-            write_bodies(with_fatigue_fields(fields, history), folder / "solution.vtu", compress=compress)
+            bodies = with_fatigue_fields(fields, history) if judged else fields.at(history.last, strained=True)
+            write_bodies(bodies, folder / "solution.vtu", compress=compress)
         return ["solution.vtu"]
     index = "solution.pvtu" if judged else f"{last}.pvtu"  # with no more to say files of ranks are called by the step
     if not (folder / index).exists():
