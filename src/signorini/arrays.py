@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import fields
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
@@ -84,14 +85,50 @@ def stored(data: Any, name: str) -> Any:
     return vars(data)[name]
 
 
+def replaced(data: Data, **others: Any) -> Data:
+    """Frozen data with other fields, as ``dataclasses.replace`` has them; arrays that are elsewhere stay there.
+
+    Parameters
+    ----------
+    data : of a dataclass
+    others : fields that change
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True)
+    ... class Result:
+    ...     name: str
+    ...     values: Array
+    >>> replaced(Result("one", np.ones(2)), name="other")
+    Result(name='other', values=array([1., 1.]))
+    """
+    known: Any = data
+    return type(data)(**{field.name: stored(data, field.name) for field in fields(known)} | others)
+
+
+def in_blocks(values: Any) -> Iterator[tuple[int, NDArray[Any]]]:
+    """The rows of an array, all at once or, of one elsewhere, some at a time, each with the number of the first.
+
+    Parameters
+    ----------
+    values : the array
+
+    Examples
+    --------
+    >>> list(in_blocks(np.ones(2)))
+    [(0, array([1., 1.]))]
+    """
+    yield from [(0, values)] if isinstance(values, np.ndarray) else values.blocks()
+
+
 def largest(values: Array | ArrayElsewhere) -> float:
     """Largest size of an entry, 0 of none; of an array elsewhere some rows after the others.
 
     >>> largest(np.array([1.0, -2.0]))
     2.0
     """
-    parts = [values] if isinstance(values, np.ndarray) else (rows for _, rows in values.blocks())
-    return max((float(np.abs(part).max(initial=0.0)) for part in parts), default=0.0)
+    return max((float(np.abs(part).max(initial=0.0)) for _, part in in_blocks(values)), default=0.0)
 
 
 def operand(data: Any, name: str) -> Any:

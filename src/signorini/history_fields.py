@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from signorini.arrays import Array
 from signorini.derivative.differentiable import DifferentiableHistory
 from signorini.engine.fatigue import assess_fatigue
 from signorini.engine.fatigue_places import probe_of
@@ -26,8 +25,8 @@ from signorini.fem.stress import BodyStress
 from signorini.history_moment import HistoryMoment, body_number
 from signorini.model.fatigue import Fatigue
 from signorini.output.contact_table import contact_table
-from signorini.output.fatigue_csv import fatigue_fields
-from signorini.output.fields import Fields
+from signorini.output.fatigue_csv import with_fatigue_fields
+from signorini.output.fields import BodyFields, Fields
 from signorini.output.history_table import history_columns
 from signorini.output.result_table import ResultTable
 from signorini.plasticity.fields import PlasticFields
@@ -212,7 +211,7 @@ class HistoryFields(DifferentiableHistory):
         array([0.125, 0.125, 0.125])
         """
         request = Fatigue(criterion, where=where, steps=steps, distance=distance, average=average)
-        return assess_fatigue(self, request, self._fields.space)
+        return assess_fatigue(self, request, lambda: self._fields.space)
 
     @cached_property
     def history(self) -> ResultTable:
@@ -260,8 +259,6 @@ class HistoryFields(DifferentiableHistory):
     def _recovery(self) -> Recovery:
         return Recovery.of(self)
 
-    @property
-    def _fatigue_fields(self) -> dict[str, Array]:
-        """Point arrays of the criteria that the model asks for."""
-        results = self.fatigue_results
-        return fatigue_fields(results, self._fields.stresses(self.last)) if results else {}
+    def _last_fields(self) -> BodyFields:
+        """The bodies at the end, with what the criteria say that the model asks for."""
+        return with_fatigue_fields(self._fields, self)

@@ -56,9 +56,7 @@ class Solution(HistoryFields):
         """
         path = Path(path)
         writers: dict[str, Callable[[], object]] = {
-            ".vtu": lambda: write_bodies(
-                self._fields.at(self.last, strained=True), path, self._fatigue_fields, compress=compress
-            ),
+            ".vtu": lambda: write_bodies(self._last_fields(), path, compress=compress),
             ".pvd": lambda: write_pvd(self, self._fields, path, compress=compress),
             ".h5": lambda: write_archive(self, path, compress=compress),
             ".frd": lambda: write_frd(self, with_ranks(self) or self._fields, path),

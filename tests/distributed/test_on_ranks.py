@@ -113,6 +113,35 @@ def test_the_command_line_writes_the_same_results(tmp_path, capsys):
 
 @with_ranks
 @pytest.mark.slow
+def test_the_command_line_judges_fatigue_on_ranks(tmp_path, capsys):
+    """On a path from event to event, whose stresses ranks see on the way: the same worst places, files, and rows.
+
+    Planes are found to 1e-6 radians, at which parameters are flat, and their terms are not.
+    """
+    deck, one = HOUSE / "examples" / "fretting_fatigue.toml", tmp_path / "one"
+    assert main(["run", str(deck), "-o", str(one), "--quiet"]) == 0
+    worst = told_of_fatigue(one)
+    for number in (2, 3):
+        folder = tmp_path / f"{number} ranks"
+        done = on_ranks(number, "-m", "signorini", "run", str(deck), "--backend", "mumps", "-o", str(folder))
+        assert done.returncode == 0, done.stderr
+        assert main(["diff", str(one), str(folder), "--tolerance", "1e-6"]) == 0
+        assert len(sources(folder / "solution.pvtu")) == number
+        assert_whole(folder / "solution.pvtu", one / "solution.vtu", 1e-7)
+        assert told_of_fatigue(folder) == worst
+    capsys.readouterr()
+
+
+def told_of_fatigue(folder):
+    """What a summary says of fatigue: how much was looked at, where it is worst, and parameters in seven digits."""
+    told = json.loads((folder / "summary.json").read_text())["fatigue"]
+    worst = [[entry["worst"][key] for key in ("body", "node", "at")] for entry in told]
+    sizes = [[entry["places"], entry["moments"], f"{entry['worst']['parameter']:.6e}"] for entry in told]
+    return worst, sizes
+
+
+@with_ranks
+@pytest.mark.slow
 def test_messages_of_an_iteration_are_counted():
     """On two ranks each has one beside it; what the pairs ask of a sum, conjugate gradients take three."""
     done = on_ranks(2, "-m", "benchmarks.ranks_on_paper", "--one", "4", "3")

@@ -21,8 +21,10 @@ from signorini.clock import Clock
 from signorini.distributed.ranks import Team, lend
 from signorini.engine import prepare, validity_notes
 from signorini.engine import solve as following
+from signorini.engine.fatigue_on_ranks import PlacesOnRanks
 from signorini.fem import loads, supports
 from signorini.meshing.cut import cut
+from signorini.meshing.plane import annulus
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 from signorini.model.obstacle import Plane
@@ -87,6 +89,30 @@ def strip():
     )
 
 
+def half_ring():
+    """One of two sectors of a ring: pads hold it from outside and press it from inside, far from the sides."""
+    arc = annulus(inner=1.0, outer=1.5, n_radial=4, n_angular=400, angle=180.0)
+    edges = {side: arc.boundaries[side] for side in ("start", "end")}
+    edges |= {f"patch {side}": arc.boundaries[side][190:210] for side in ("inner", "outer")}
+    pad = annulus(inner=0.9, outer=1.0, n_radial=2, n_angular=4, angle=2.0)
+    turn = np.radians(89.0)
+    away = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+    return sg.Model(
+        join({"ring": replace(arc, boundaries=edges), "pad": replace(pad, points=pad.points @ away)}),
+        bodies=[sg.Body(name, sg.Elastic(E=1.0, nu=0.3)) for name in ("ring", "pad")],
+        supports=[sg.Support("pad.inner", u=(0, 0)), sg.Support("ring.patch outer", u=(0.001, 0))],
+        contacts=[sg.Contact("pad.outer", "ring.patch inner", friction=0.3, interference=0.001)],
+        cyclic_symmetries=[sg.CyclicSymmetry("ring.start", "ring.end", sectors=2)],
+        steps=[sg.Step(increments=2)],
+        fatigue=judged("ring", "pad.outer"),
+    )
+
+
+def judged(body, contact):
+    """Criteria of fatigue, at all nodes of a body and on the pairs of a contact."""
+    return [sg.Fatigue(sg.fatigue.SWT(), where=body), sg.Fatigue(sg.fatigue.Ruiz(), where=contact)]
+
+
 def solved(model, backend):
     """The history of a model, whatever ends it."""
     return following.solve(model, backend=backend, raise_on_failure=False)
@@ -103,7 +129,9 @@ def derived(model, backend):
 
 
 ASKED = {"derivatives": derived}
-FACTORISED = ("derivatives", "exact path", "rests, approaches", "switched off")  # whatever they are asked for
+FACTORISED = (  # whatever they are asked for
+    *("derivatives", "exact path", "fatigue on an exact path", "rests, approaches", "switched off"),
+)
 MODELS = {
     "derivatives": strip,
     "bolted column": bolted,
@@ -121,6 +149,12 @@ MODELS = {
         contacts=[sg.Contact("bottom", Plane((0, 0, 0), (0, 0, 1)), friction=0.3, facets=8)],
         steps=[sg.Step(path="exact")],
     ),
+    "fatigue on an exact path": lambda: column(
+        contacts=[sg.Contact("bottom", Plane((0, 0, 0), (0, 0, 1)), friction=0.3, facets=8)],
+        steps=[sg.Step(path="exact")],
+        fatigue=judged("block", "bottom"),
+    ),
+    "half a ring, fatigue": half_ring,
     "tied": lambda: stacked(
         supports=[sg.Support("foot.bottom", u=(0, 0, 0)), sg.Support("column.top", u=(0, 0.001, -0.01))],
         contacts=[sg.Contact("column.bottom", "foot.top", friction="tied")],
@@ -255,7 +289,8 @@ def main():
                 return found
 
             solver_on_ranks.kept_on_ranks = kept_on_ranks
-            watch.without(FieldsOnRanks, "__init__")  # it sends ranks their cells
+            for sending in (FieldsOnRanks, PlacesOnRanks):
+                watch.without(sending, "__init__")  # ranks are sent their cells
             history = ASKED.get(name, solved)(model, backend)
             with tempfile.TemporaryDirectory() as name:
                 folder, prints = Path(name), all_prints(model, len(history.steps))

@@ -11,7 +11,7 @@ import pytest
 import signorini as sg
 from signorini.distributed.partition import owners
 from signorini.engine.examine import examine
-from signorini.gallery.sectors import ring_on_shaft
+from signorini.gallery.sectors import SECTORS, ring_on_pads
 from signorini.output import by_rows
 from signorini.output import rank_files as module
 from signorini.output.dat import write_dat
@@ -20,8 +20,10 @@ from signorini.output.folder import write_folder
 from signorini.output.frd import write_frd
 from signorini.output.rank_files import FieldsOnRanks, fields_on_ranks
 from signorini.output.series import write_state
+from tests.fem.test_cyclic import fan
 from tests.helpers.fake_ranks import RanksInTurn
-from tests.helpers.on_ranks import MODELS, in_increments
+from tests.helpers.on_ranks import MODELS as ON_RANKS
+from tests.helpers.on_ranks import in_increments
 from tests.helpers.rank_files import all_prints, assert_whole, differing, sources
 
 RANKS = 3
@@ -37,7 +39,26 @@ def solved(name, team, monkeypatch, model=None):
     return history
 
 
-@pytest.mark.parametrize("name", ["held by contact alone", "mortar", "several steps", "coupled unknowns", "twist"])
+def sector_with_axis():
+    """A sixth of a disk, whose tip is a node of both sides."""
+    return sg.Model(
+        fan(1),
+        bodies=[sg.Body("disc", sg.Elastic(E=200.0, nu=0.3, density=2.0))],
+        supports=[sg.Support("rim", u=(0.0, 0.0))],
+        loads=[sg.Load("disc", centrifugal=0.5)],
+        cyclic_symmetries=[sg.CyclicSymmetry("start", "end", sectors=SECTORS)],
+        steps=[sg.Step(increments=1)],
+    )
+
+
+MODELS = ON_RANKS | {"a sector on a pad": lambda: ring_on_pads(whole=False), "a sector with its axis": sector_with_axis}
+WRITTEN = [
+    *("held by contact alone", "mortar", "several steps", "coupled unknowns", "twist"),
+    *("a sector", "a sector on a pad", "a sector with its axis"),
+]
+
+
+@pytest.mark.parametrize("name", WRITTEN)
 def test_files_of_ranks_are_together_the_file_of_one_process(name, tmp_path, monkeypatch):
     """Points and cells with all their arrays: averages at nodes take in the cells of other ranks."""
     team = RanksInTurn(RANKS)
@@ -52,7 +73,7 @@ def test_files_of_ranks_are_together_the_file_of_one_process(name, tmp_path, mon
     assert_whole(tmp_path / "parts.pvtu", tmp_path / "whole.vtu")
 
 
-@pytest.mark.parametrize("name", ["held by contact alone", "mortar", "several steps", "coupled unknowns", "twist"])
+@pytest.mark.parametrize("name", WRITTEN)
 def test_files_of_text_are_those_of_one_process_row_by_row(name, tmp_path, monkeypatch):
     """However many rows are asked for at a time; the first process recovers nothing of all nodes."""
     history = solved(name, RanksInTurn(RANKS), monkeypatch)
@@ -104,6 +125,31 @@ def test_a_folder_of_several_steps_lists_the_files_of_ranks(tmp_path, monkeypatc
     assert not [*folder.glob("solution*.vtu")]
 
 
+def test_files_of_ranks_hold_what_criteria_of_fatigue_say(tmp_path, monkeypatch):
+    """The last state alone, of one step and of several; of some bodies, of surfaces, and of pairs; rows of text too."""
+    asked = [
+        sg.Fatigue(sg.fatigue.SWT(), where="up"),
+        sg.Fatigue(sg.fatigue.Crossland(bending_limit=300.0, torsion_limit=200.0), where=["low.top", "up"]),
+        sg.Fatigue(sg.fatigue.Ruiz()),
+    ]
+    monkeypatch.setattr(by_rows, "_AT_ONCE", 7)
+    for name in ("held by contact alone", "supports that hold again"):
+        steps = [replace(step, at="events") for step in in_increments(MODELS[name]()).steps]
+        model = replace(MODELS[name](), fatigue=asked, steps=steps)
+        history = solved("", RanksInTurn(RANKS), monkeypatch, model)
+        folders = [tmp_path / name / way for way in ("ranks", "one")]
+        for folder, backend in zip(folders, ("petsc", "multifrontal"), strict=True):
+            folder.mkdir(parents=True)
+            write_folder(replace(history, backend=backend), folder)
+        assert_whole(folders[0] / "solution.pvtu", folders[1] / "solution.vtu")
+        for file in ("fatigue.csv", "history.csv"):
+            assert (folders[0] / file).read_bytes() == (folders[1] / file).read_bytes()
+        listed = {file for index in folders[0].glob("*.pvtu") for file in sources(index)}
+        assert listed <= set(folders[0].glob("fields/*_rank*.vtu"))
+        arrays = meshio.read(sources(folders[0] / "solution.pvtu")[0]).point_data
+        assert {"fatigue_1_SWT", "fatigue_2_Crossland", "fatigue_3_Ruiz"} <= arrays.keys()
+
+
 def test_a_rank_whose_disk_is_full_says_so(tmp_path, monkeypatch):
     history = solved("held by contact alone", RanksInTurn(RANKS), monkeypatch)
     write = module.write_grid
@@ -144,10 +190,9 @@ def test_a_rank_without_cells_writes_nothing(tmp_path, monkeypatch):
 
 
 def test_one_process_writes_where_ranks_do_not(monkeypatch):
-    """Of a mesh that was not cut here, and of sectors, whose averages take in cells of the other side."""
+    """Of a mesh that was not cut here."""
     team = RanksInTurn(RANKS)
     assert fields_on_ranks(solved("several steps", team, monkeypatch)) is not None
-    assert fields_on_ranks(solved("", team, monkeypatch, ring_on_shaft(whole=False))) is None
     history = solved("several steps", team, monkeypatch)
     team.owners.clear()
     assert fields_on_ranks(history) is None

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import time
 from dataclasses import replace
+from functools import cache, partial
 from pathlib import Path
 
 from signorini.clock import Clock
@@ -45,7 +46,7 @@ def _answered(history: History, asked: Path) -> History:
         With file and line.
     """
     model = model_asking_for(history.model, asked)
-    space = make_space(model.mesh, kind=model.kind)
+    space = cache(partial(make_space, model.mesh, kind=model.kind))
     history, found = replace(history, model=model), []
     for i, request in enumerate(model.fatigue):
         try:

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -90,12 +90,13 @@ class RowsKept:
         """(k, ...) Some rows, by their numbers (k,) in any order."""
         if self._home is not None:
             return self._home[numbers]
-        rank, result = np.searchsorted(self._ends, numbers, side="right") - 1, np.empty((len(numbers), *self.shape[1:]))
+        rank = np.searchsorted(self._ends, numbers, side="right") - 1
+        result = np.empty((len(numbers), *self.shape[1:]), self.dtype)
         own = [np.flatnonzero(rank == r) for r in range(self._team.size)]
         pieces = (numbers[here] - first for here, first in zip(own, self._ends, strict=False))
         for here, rows in zip(own, self._team.everywhere(_chosen, self._number, pieces=pieces), strict=True):
             result[here] = rows
-        return result.astype(self.dtype, copy=False)
+        return result
 
     @property
     def place(self) -> tuple[int, IntArray]:
@@ -170,6 +171,57 @@ def rows_of_all(team: Team, number: int, ends: IntArray, wanted: IntArray) -> Ar
     asked = team.comm.alltoall(np.split(wanted, np.searchsorted(wanted, ends[1:-1])))
     own, first = team.held[number], ends[team.rank]
     return np.concatenate(team.comm.alltoall([own[rows - first] for rows in asked]))
+
+
+class OwnRows(NamedTuple):
+    """Rows of arrays that a rank has found.
+
+    Attributes
+    ----------
+    numbers : (k,) of the rows, ascending
+    arrays : (k, ...) by name
+    """
+
+    numbers: IntArray
+    arrays: Mapping[str, Any]
+
+
+class _ForNow:
+    """What ranks keep something for that is asked for at once."""
+
+
+def rows_together(team: Team, number: int, name: str, shape: tuple[int, ...], dtype: np.dtype[Any]) -> Any:
+    """An array of the rows that ranks have found, which they keep in even shares; here where it is small.
+
+    Parameters
+    ----------
+    team : the ranks
+    number : under which those hold `OwnRows` that have any
+    name, shape, dtype : of the array
+    """
+    if dtype.itemsize * math.prod(shape) < _WORTH:
+        result = np.empty(shape, dtype)
+        for numbers, rows in filter(None, team.everywhere(_own_rows, number, name)):
+            result[numbers] = rows
+        result.flags.writeable = False
+        return result
+    now = _ForNow()
+    values, entries = team.kept(now), team.kept(now)
+    team.everywhere(_lay_out, number, name, math.prod(shape[1:]), dtype, values, entries)
+    return RowsKept(team, shape, dtype, gathered=(values, entries))
+
+
+def _own_rows(team: Team, number: int, name: str) -> tuple[IntArray, Any] | None:
+    """Own rows of an array, with their numbers."""
+    own: OwnRows | None = team.held.get(number)
+    return None if own is None else (own.numbers, own.arrays[name])
+
+
+def _lay_out(team: Team, number: int, name: str, width: int, dtype: np.dtype[Any], values: int, entries: int) -> None:
+    """Keep the entries of own rows, and their numbers, as `_gather` asks for them."""
+    numbers, rows = _own_rows(team, number, name) or (np.zeros(0, np.int64), np.zeros(0))
+    team.held[values] = np.asarray(rows).ravel().astype(dtype, copy=False)
+    team.held[entries] = (width * numbers[:, None] + np.arange(width)).ravel()
 
 
 def _chosen(team: Team, numbers: IntArray, number: int) -> Array:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -20,7 +21,6 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints
 from signorini.model.body import Body
-from signorini.model.conditions import Load
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
 
@@ -47,17 +47,17 @@ class PartOfBodies:
     kind: str
     thickness: float
 
-    def model(self, *, loads: Sequence[Load] = (), node_numbers: IntArray | None = None) -> Model:
+    def model(self, of_mesh: Mapping[str, Any] | None = None, **more: Any) -> Model:
         """A model of these cells and bodies alone.
 
         Parameters
         ----------
-        loads : on the bodies
-        node_numbers : (m,) what results call the nodes
+        of_mesh : what its mesh has beside them, see `Mesh`
+        more : what it has itself, see `Model`
         """
         named = {body.name: np.flatnonzero(self.body == i) for i, body in enumerate(self.bodies)}
-        mesh = Mesh(points=self.points, cells=self.cells, bodies=named, node_numbers=node_numbers)
-        return Model(mesh, kind=self.kind, thickness=self.thickness, bodies=self.bodies, loads=loads)  # type: ignore[arg-type]
+        mesh = Mesh(points=self.points, cells=self.cells, bodies=named, **(of_mesh or {}))
+        return Model(mesh, kind=self.kind, thickness=self.thickness, bodies=self.bodies, **more)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

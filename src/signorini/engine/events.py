@@ -311,8 +311,7 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
     last, since, losses, found = state, 0.0, _losses(segment), []
     if start.note == PRESSED:
         pressed = recovered(prepared, state, state.point, start)
-        lost = float(pressed.dissipation.sum() - state.dissipation.sum())
-        last = balanced(prepared, state, pressed, lost)
+        last = balanced(prepared, state, pressed, float(pressed.dissipation.sum() - state.dissipation.sum()))
         found.append(Snapshot(number=interval.number, fraction=interval.low, what="start", state=last))
     reached = path.reached
     visited = {event.factor: event.state for event in segment.events if 0.0 < event.factor < reached}
@@ -323,10 +322,10 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
     for factor, now in {**visited, reached: segment.end}.items():
         s = 1.0 if factor == reached else factor / reached
         point, known = state.point.towards(part.end, s), whole or s == 1.0
+        recover = partial(recovered, prepared, last, point, now)
         if known:
             lost = sum(loss for t, loss in losses if since < t <= factor)
-            here = balanced(prepared, last, recovered(prepared, last, point, now), lost)
-            last, since = here, factor
+            last, since = (here := balanced(prepared, last, recover(), lost)), factor
         else:
             here = on_the_way(prepared, last, point, now)
         what = interval.ends if s == 1.0 else "event" if factor in happens else "increment"
@@ -338,6 +337,7 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
                 state=here,
                 whole=known,
                 worked=known,
+                recover=None if known else recover,
             )
         )
     return tuple(found)

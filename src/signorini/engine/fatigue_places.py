@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,9 +16,11 @@ from signorini.fatigue.criteria import SWT, Ruiz, StrainLife
 from signorini.fem.boundary import boundary
 from signorini.fem.probe import StressProbe
 from signorini.fem.space import Space
+from signorini.interface.interface import Interface
 from signorini.model.fatigue import Fatigue
 from signorini.model.material import Elastic
 from signorini.model.model import Model
+from signorini.solution.results import ContactResult
 
 _LINE_POINTS = 16  # of a mean over a line: stresses are piecewise smooth over the cells that it crosses
 
@@ -110,19 +113,57 @@ class RequestPlaces:
     points: Array
 
 
-def request_places(space: Space, model: Model, request: Fatigue) -> RequestPlaces:
-    """Places that a request is about, of any criterion but Ruiz's.
+class PairPlaces(NamedTuple):
+    """Where the pairs of a contact are.
+
+    Attributes
+    ----------
+    contact, nonmortar : names of the contact, and of the side that they belong to
+    node : (n,) of the mesh
+    """
+
+    contact: str
+    nonmortar: str
+    node: IntArray
+
+    @classmethod
+    def of_result(cls, contact: ContactResult) -> PairPlaces:
+        """Of a contact that was solved."""
+        return cls(contact.name, contact.nonmortar, contact.node)
+
+    @classmethod
+    def of_model(cls, interface: Interface, model: Model) -> list[PairPlaces]:
+        """Of all contacts of a model, before they are solved.
+
+        Parameters
+        ----------
+        interface, model : the pairs, and whose they are
+        """
+        sides = enumerate(zip(model.contacts, interface.sides, strict=True))
+        return [cls(law.label, side.nonmortar, interface.node[interface.contact == i]) for i, (law, side) in sides]
+
+
+def request_places(
+    space: Space, model: Model, request: Fatigue, pairs: Sequence[PairPlaces] | None = None
+) -> RequestPlaces:
+    """Places that a request is about.
 
     Parameters
     ----------
     space, model : of the bodies
     request : with names that the model has
+    pairs : of all contacts, which Ruiz's criterion asks of
 
     Raises
     ------
     InputError
         Where a critical distance leaves a body, or there is no normal that it goes along.
     """
+    if isinstance(request.criterion, Ruiz):
+        assert pairs is not None
+        nodes = _of_pairs(space, model, [own for own in pairs if not request.where or own.contact in request.where])
+        probe, node = StressProbe.at_nodes(space, model, nodes), nodes[:, 1]
+        return RequestPlaces(probe=probe, node=node, points=model.mesh.points[node])
     places = named_places(space, model, request.where)
     node = places.nodes[:, 1]
     points = model.mesh.points[node]
@@ -131,6 +172,17 @@ def request_places(space: Space, model: Model, request: Fatigue) -> RequestPlace
     else:
         probe = StressProbe.at_nodes(space, model, places.nodes)
     return RequestPlaces(probe=probe, node=node, points=points)
+
+
+def _of_pairs(space: Space, model: Model, pairs: Sequence[PairPlaces]) -> IntArray:
+    """(p, 2) Bodies and nodes of pairs."""
+    nodes = []
+    for _, nonmortar, node in pairs:
+        side = named_places(space, model, [nonmortar]).nodes
+        own = side[np.isin(side[:, 1], node)]
+        order = np.argsort(own[:, 1], kind="stable")
+        nodes.append(own[order[np.searchsorted(own[order, 1], node)]])
+    return np.concatenate(nodes)
 
 
 def probe_of(

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -17,6 +17,7 @@ from signorini.distributed.ranks import MUMPS, PETSC
 from signorini.engine.contact_changes import pressed_gap, relaxed, staged, switched
 from signorini.engine.examine import on_ranks
 from signorini.engine.fatigue import with_fatigue
+from signorini.engine.fatigue_on_ranks import PlacesOnRanks, places_to_see
 from signorini.engine.increments import measured
 from signorini.engine.memory_check import refuse_fields
 from signorini.engine.moved_mesh import on_worn_mesh, with_geometry
@@ -121,9 +122,10 @@ def solve_prepared(
     if start is not None and start.state.wear is not None and start.state.wear.taken.any():
         prepared = on_worn_mesh(prepared, start.state.wear.taken)
     begin = _first(prepared) if start is None else _fitting(prepared, start)
-    history = _follow(prepared, begin, wellposed, after_step, tape)
+    seen = places_to_see(prepared) if prepared.model.fatigue else []
+    history = _follow(prepared, begin, wellposed, after_step, tape, seen)
     if prepared.model.fatigue and history.solved:
-        history = with_fatigue(history)
+        history = with_fatigue(history, seen)
     if raise_on_failure:
         raise_failure(history)
     return history
@@ -200,6 +202,7 @@ def _follow(
     wellposed: bool,
     after_step: Callable[[History], None] | None,
     tape: Tape | None,
+    seen: Sequence[PlacesOnRanks],
 ) -> History:
     """Step after step, up to the end or to what stops it; then the last one goes as far as it was followed.
 
@@ -226,7 +229,7 @@ def _follow(
                             now = staged(prepared, stage, loading)
                         else:
                             now = prepared.under(prepared.interface, loading, prepared.absent)
-                        followed, cycle_ends = _from(end, constraints, now, stage, tape)
+                        followed, cycle_ends = _from(end, constraints, now, stage, tape, seen)
                     break
                 except SolveFailed:
                     if not (prepared.limited or prepared.spared):
@@ -273,7 +276,12 @@ def _kept(prepared: Prepared, end: Checkpoint) -> Checkpoint:
 
 
 def _from(
-    end: Checkpoint, before: Constraints, now: Prepared, stage: Stage, tape: Tape | None
+    end: Checkpoint,
+    before: Constraints,
+    now: Prepared,
+    stage: Stage,
+    tape: Tape | None,
+    seen: Sequence[PlacesOnRanks],
 ) -> tuple[FollowedPart, list[float]]:
     """A step from the end of the one before it and its supports, with the supports and contacts that it changes."""
     state = end.state if stage.released == end.standing.released else handed_over(now, before, end.state)
@@ -282,7 +290,7 @@ def _from(
     if tape is not None and state is not end.state:
         alone = stage.inactive == end.standing.inactive and locks_bolts(now.model, end.standing, stage)
         tape.change(end.state, state, stage.name, locks=alone)
-    return _step(now, stage, state, tape is not None)
+    return _step(now, stage, state, tape is not None, seen)
 
 
 def _motion(stop: BaseException) -> Any:
@@ -301,7 +309,9 @@ def _constraints(prepared: Prepared, released: frozenset[str]) -> Constraints:
     return make_constraints(prepared.space, prepared.model, without=released, spread=prepared.constraints.spread)
 
 
-def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[FollowedPart, list[float]]:
+def _step(
+    prepared: Prepared, stage: Stage, state: State, taped: bool, seen: Sequence[PlacesOnRanks]
+) -> tuple[FollowedPart, list[float]]:
     """A step from what it changes at once through all its straight parts; and the load factors at its cycles' ends."""
     behind: list[FollowedPart] = []
     cycle_ends: list[float] = []
@@ -323,6 +333,8 @@ def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[
             notes=(RELAXED,),
             legs=(Leg.at_once(prepared, stage.name, state, after, stage.number - 1.0),),
         )
+        for places in seen:
+            places.take(prepared, stage, 0, slipped)
         behind.append(lightened(slipped, every=at_events, end=False, heated=heated, taped=taped))
         state = after
     reaction, offset = state.point.left
@@ -350,6 +362,8 @@ def _step(prepared: Prepared, stage: Stage, state: State, taped: bool) -> tuple[
             followed = follow_sliding(part, way) if prepared.model.slides else way(part)
         except (SolveFailed, KeyboardInterrupt) as stop:
             raise keep(stop, behind) from None
+        for places in seen:
+            places.take(prepared, stage, sum(len(part.snapshots) for part in behind), followed)
         followed = lightened(followed, every=at_events, end=interval.asked, heated=heated, taped=taped)
         behind = [joined([*behind, followed])]
         state = followed.after

@@ -173,6 +173,7 @@ class Snapshot:
     worked : whether it was recovered
     interface : the pairs, where they are not those of the model
     prepared : the model, where its mesh has moved since the step began
+    recover : gives the state with its displacement, where that was not looked for
     """
 
     number: int
@@ -184,6 +185,12 @@ class Snapshot:
     worked: bool = True
     interface: Interface | None = None
     prepared: Prepared | None = None
+    recover: Callable[[], State] | None = None
+
+    @property
+    def bodies(self) -> State | None:
+        """The state with its displacement, which is recovered if need be; None where it is not known."""
+        return self.state if self.whole else self.recover and self.recover()
 
     @property
     def load_factor(self) -> float:
@@ -201,7 +208,7 @@ class Snapshot:
         point = replace(self.state.point, reaction=none, offset=none)
         plastic = self.state.plastic if flow or self.state.plastic is None else self.state.plastic.light()
         state = replace(self.state, point=point, displacement=none, external=none, plastic=plastic)
-        return replace(self, state=state, whole=False)
+        return replace(self, state=state, whole=False, recover=None)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 
 import numpy as np
 
-from signorini.arrays import Array, frozen
+from signorini.arrays import Array, frozen, stored
 from signorini.engine.recovery import Recovery
 from signorini.errors import InputError, one_of
 from signorini.fem.kinematics import Group
@@ -98,53 +98,82 @@ def stress_history(history: History, probe: StressProbe, points: Array, *, steps
     """
     looked_at = spans(history, steps)
     recovery = cache(partial(Recovery.of, history))
-    rows = [row for span in looked_at for row in _along(span, probe, recovery)]
-    stress, gradient, flowed = (np.stack([row[1][k] for row in rows], axis=1) for k in range(3))
+    rows = [
+        (factor, in_state(probe, state, None if state is None else state.displacement if u is None else u))
+        for factor, state, u in moments_along(looked_at, recovery)
+    ]
+    stress, strain, gradient = together(probe, [row for _, row in rows])
     single = probe.weights.nnz == len(points)
     node = probe.nodes[probe.weights.indices, 1] if single else np.full(len(points), -1)
     return StressHistory(
         points=frozen(points),
         bodies=tuple(probe.model.bodies[body].name for body in probe.body),
         node=frozen(node, np.int64),
-        load_factor=frozen(np.array([row[0] for row in rows])),
+        load_factor=frozen(np.array([factor for factor, _ in rows])),
         stress=frozen(stress),
-        strain=frozen(probe.elastic_strain(stress) + flowed),
+        strain=frozen(strain),
         gradient=frozen(gradient),
-        exact=_is_exact(history.model, looked_at),
+        exact=is_exact(history.model, looked_at),
     )
 
 
-def _along(
-    span: Span, probe: StressProbe, recovery: Callable[[], Recovery]
-) -> Iterator[tuple[float, tuple[Array, Array, Array]]]:
-    """Load factors of the moments of a step, and what `_in_state` says of each."""
-    if span.at_rest:
-        nothing = np.zeros((len(probe.body), 6))
-        yield 0.0, (nothing, nothing if probe.slopes is not None else nothing[:0], nothing)
-    if span.before is not None and span.before.displacement is not None:
-        yield span.before.load_factor, _in_state(probe, span.before, span.before.displacement)
-    missing = [moment for moment in span.moments[:-1] if not moment.deformed]
-    found = recovery().displacements(span.step, missing) if missing else iter(())
-    for moment in span.moments[:-1]:
-        u = moment.displacement
-        yield moment.load_factor, _in_state(probe, moment, next(found) if u is None else u)
-    for _ in found:  # what is left compares what was found with the end
-        pass
-    yield span.step.load_factor, _in_state(probe, span.step, span.step.displacement)
+def moments_along(
+    looked_at: Sequence[Span], recovery: Callable[[], Recovery], seen: Container[Instant] = ()
+) -> Iterator[tuple[float, StepResult | Instant | None, Array | None]]:
+    """Load factors and states of all moments that are looked at; None of bodies at rest.
+
+    Behind them displacements (nodes, d), where they were not kept with the state, and are found.
+
+    Parameters
+    ----------
+    looked_at : parts of steps
+    recovery : finds displacements, if any are missing
+    seen : states whose stresses are known already, of which no displacements are looked for
+    """
+    for span in looked_at:
+        if span.at_rest:
+            yield 0.0, None, None
+        if span.before is not None and stored(span.before, "displacement") is not None:
+            yield span.before.load_factor, span.before, None
+        missing = [moment for moment in span.moments[:-1] if not moment.deformed and moment not in seen]
+        found = recovery().displacements(span.step, missing) if missing else iter(())
+        for moment in span.moments[:-1]:
+            known = moment.deformed or moment in seen
+            yield moment.load_factor, moment, None if known else next(found)
+        for _ in found:  # what is left compares what was found with the end
+            pass
+        yield span.step.load_factor, span.step, None
 
 
-def _is_exact(model: Model, looked_at: Sequence[Span]) -> bool:
+def is_exact(model: Model, looked_at: Sequence[Span]) -> bool:
     """Whether stresses are linear between moments: without contact in elastic bodies, and on exact paths.
 
     Not where pairs follow the bodies, whose steps are paths from stride to stride.
+
+    Parameters
+    ----------
+    model, looked_at : the bodies, and parts of steps
     """
     if not model.contacts:
         return not model.yields
     return not model.slides and all(span.step.path == "exact" for span in looked_at)
 
 
-def _in_state(probe: StressProbe, state: StepResult | Instant, displacement: Array) -> tuple[Array, Array, Array]:
-    """Stresses, their derivatives and plastic strains of the places in one state, each (p, 6)."""
+InState = tuple[Array, Array, Array]
+"""Stresses, their derivatives and plastic strains of p places in one state, (p, 6) each."""
+
+
+def in_state(probe: StressProbe, state: StepResult | Instant | None, displacement: Array | None) -> InState:
+    """Stresses of places in one state.
+
+    Parameters
+    ----------
+    probe : the places
+    state, displacement : of the bodies, (nodes, d); None of bodies at rest
+    """
+    if state is None or displacement is None:
+        nothing = np.zeros((len(probe.body), 6))
+        return nothing, nothing if probe.slopes is not None else nothing[:0], nothing
     if state.plastic is None:
         deformed = DeformedBodies.of(probe.space, probe.model, displacement, state.factors)
         stress, gradient = probe.stress(deformed)
@@ -161,3 +190,15 @@ def _in_state(probe: StressProbe, state: StepResult | Instant, displacement: Arr
     tensor[:, :width] = probe.mean(flowed, width)
     tensor[:, 3:] *= 0.5
     return (*probe.stress(deformed), tensor)
+
+
+def together(probe: StressProbe, states: Sequence[InState]) -> InState:
+    """(p, t, 6) Stresses, strains and derivatives of the stresses, of places at several moments.
+
+    Parameters
+    ----------
+    probe : the places
+    states : what `in_state` says of each moment
+    """
+    stress, gradient, flowed = (np.stack([state[k] for state in states], axis=1) for k in range(3))
+    return stress, probe.elastic_strain(stress) + flowed, gradient

@@ -95,8 +95,7 @@ def _matched(
     space: Space, symmetry: CyclicSymmetry, first: IntArray, second: IntArray, where: Where
 ) -> tuple[Array, IntArray]:
     """R, (d, d), and which node of the second side every node of the first is turned to."""
-    points, d = space.mesh.points, space.dimension
-    size = float(np.ptp(points, axis=0).max())
+    points, d, size = space.mesh.points, space.dimension, float(space.mesh.extent.max())
     centre = np.array(symmetry.point or (0.0,) * d)
     if len(first) != len(second):
         raise InputError(

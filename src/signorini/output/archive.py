@@ -121,9 +121,11 @@ def _write(file: h5py.File, name: str, array: AnyArray | ArrayElsewhere, *, comp
 
     if not isinstance(array, np.ndarray):
         filters = {"compression": "gzip", "compression_opts": 1} if compress else {}
-        placed = file.create_dataset(name, shape=array.shape, dtype=array.dtype, **filters)
+        text = array.dtype.kind == "U"
+        kind = h5py.string_dtype("utf-8", array.dtype.itemsize) if text else array.dtype  # 4 bytes a letter at most
+        placed = file.create_dataset(name, shape=array.shape, dtype=kind, **filters)
         for first, rows in array.blocks():
-            placed[first : first + len(rows)] = rows
+            placed[first : first + len(rows)] = _encoded(rows).astype(kind) if text else rows
         return
     if compress and array.nbytes >= _MIN_COMPRESSED and array.dtype.kind != "U":
         file.create_dataset(name, data=array, compression="gzip", compression_opts=1)

@@ -14,7 +14,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from signorini.arrays import ArrayElsewhere, frozen, stored
+from signorini.arrays import ArrayElsewhere, frozen, in_blocks, stored
 from signorini.errors import InputError
 from signorini.law.friction import LAWS
 
@@ -177,7 +177,7 @@ def digest(array: AnyArray | ArrayElsewhere) -> str:
     False
     """
     found = hashlib.blake2b(f"{array.dtype.str}{array.shape}".encode(), digest_size=_DIGEST_SIZE)
-    for _, rows in [(0, array)] if isinstance(array, np.ndarray) else array.blocks():
+    for _, rows in in_blocks(array):
         found.update(np.ascontiguousarray(rows).tobytes())
     return found.hexdigest()
 

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -48,6 +48,7 @@ class BodyFields:
     strain : (n, 6) as tensors, components as those of the stress; None unless asked for
     tensors_in_cells : of every block (m, 12), means of stress and strain over its cells; empty unless asked for
     reaction, contact_force : (n, d) forces of supports, and of contacts, on the bodies; None where they are not known
+    further : (n,) other values by name
     """
 
     points: Array
@@ -64,6 +65,7 @@ class BodyFields:
     tensors_in_cells: tuple[Array, ...] = ()
     reaction: Array | None = None
     contact_force: Array | None = None
+    further: Mapping[str, Array] = field(default_factory=dict)
 
     @cached_property
     def von_mises(self) -> Array:
@@ -104,6 +106,7 @@ class BodyFields:
             tensors_in_cells=tuple(self.tensors_in_cells[k][kept[k]] for k in blocks) if self.tensors_in_cells else (),
             reaction=at_points(self.reaction),
             contact_force=at_points(self.contact_force),
+            further={name: values[points] for name, values in self.further.items()},
         )
 
 

@@ -27,12 +27,12 @@ from signorini.output.archive import GrowingArchive, read_archive, write_archive
 from signorini.output.checkpoint import write_checkpoint
 from signorini.output.contact_csv import write_contacts
 from signorini.output.dat import write_dat
-from signorini.output.fatigue_csv import fatigue_fields, write_fatigue
+from signorini.output.fatigue_csv import with_fatigue_fields, write_fatigue
 from signorini.output.fields import Fields
 from signorini.output.frd import write_frd
 from signorini.output.history_csv import write_history
 from signorini.output.room import results_bytes, shared_states
-from signorini.output.series import frames, with_ranks, write_series, write_state
+from signorini.output.series import frames, with_ranks, write_series
 from signorini.output.summary import summary
 from signorini.output.vtu import FIELDS, write_bodies, write_surfaces
 from signorini.solution.history import History
@@ -351,25 +351,36 @@ def _write_tables(
     model = history.model
     if len(history.steps) > 1 or any(shot.deformed for shot in history.last.instants[:-1]):
         names += write_series(fields, frames(history), folder, done=done, compress=compress, ranks=ranks)
-    last, kind = f"solution_{len(history.steps):04d}", "vtu" if ranks is None else "pvtu"
-    if ranks is not None and not (folder / f"{last}.pvtu").exists():  # files of ranks are called by the step
-        shown = write_state(fields, history.last, folder, last, compress=compress, ranks=ranks)
-        names += [name for name in shown if name not in names]
     if history.fatigue_results:
         write_fatigue(history, folder / "fatigue.csv")
         names.append("fatigue.csv")
-        further = fatigue_fields(history.fatigue_results, fields.stresses(history.last))
-        write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu", further, compress=compress)
-    elif (folder / f"{last}.{kind}").exists():
-        shutil.copyfile(folder / f"{last}.{kind}", folder / f"solution.{kind}")
-    else:
-        write_bodies(fields.at(history.last, strained=True), folder / "solution.vtu", compress=compress)
+    shown = _write_last(history, fields, folder, compress=compress, ranks=ranks)
     if model.contacts:
         write_surfaces(model, history.last.contacts, folder / SURFACES)
         names.append(SURFACES)
     write_history(history, folder / "history.csv")
-    names += [f"solution.{kind}", "history.csv"]
+    names = list(dict.fromkeys([*names, *shown, "history.csv"]))
     if history.end is not None:
         write_checkpoint(history.end, folder / "state.npz", compress=compress)
         names.append("state.npz")
     return names
+
+
+def _write_last(
+    history: History, fields: Fields, folder: Path, *, compress: bool, ranks: FieldsOnRanks | None
+) -> list[str]:
+    """Write the bodies at the end of the last step, with what criteria of fatigue say; the names of the files."""
+    judged, last = history.fatigue_results, f"solution_{len(history.steps):04d}"
+    if ranks is None:
+        if not judged and (folder / f"{last}.vtu").exists():
+            shutil.copyfile(folder / f"{last}.vtu", folder / "solution.vtu")
+        else:
+            bodies = with_fatigue_fields(fields, history) if judged else fields.at(history.last, strained=True)
+            write_bodies(bodies, folder / "solution.vtu", compress=compress)
+        return ["solution.vtu"]
+    index = "solution.pvtu" if judged else f"{last}.pvtu"  # with no more to say files of ranks are called by the step
+    if not (folder / index).exists():
+        ranks.write(history.last, folder, index, compress=compress, results=judged)
+    if not judged:
+        shutil.copyfile(folder / index, folder / "solution.pvtu")
+    return [*ranks.files(index), "solution.pvtu"]

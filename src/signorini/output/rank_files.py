@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
+from numpy.typing import NDArray
 
 from signorini.arrays import Array, BoolArray, IntArray, among, places_among, stored
 from signorini.distributed.kept_rows import RowsKept, rows_of_all
@@ -18,9 +19,12 @@ from signorini.distributed.ranks import Team, several_ranks
 from signorini.distributed.shares import FieldShare, shares
 from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
+from signorini.output.by_rows import portions
 from signorini.output.dataclasses_json import AnyArray
+from signorini.output.fatigue_csv import fatigue_arrays, points_of
 from signorini.output.fields import BodyFields, Fields, State
 from signorini.output.vtu import FIELDS, grid_of, write_grid
+from signorini.solution.fatigue_result import FatigueResult
 from signorini.solution.history import History
 from signorini.solution.nodal_forces import NodalForces
 from signorini.solution.results import Instant
@@ -29,6 +33,21 @@ if TYPE_CHECKING:
     import meshio
 
 _KINDS = {"f": "Float", "i": "Int", "u": "UInt"}  # what VTK calls kinds of numbers, before their bits
+
+
+class JudgedRows(NamedTuple):
+    """What a criterion of fatigue says at k places.
+
+    Attributes
+    ----------
+    body, node : (k,) names of bodies, and nodes of the mesh
+    values : (k,) of each of the point arrays
+    """
+
+    body: NDArray[np.str_]
+    node: IntArray
+    values: list[Array]
+
 
 Of = Literal["nodes", "cells"]
 """Of what values are asked for."""
@@ -51,26 +70,44 @@ class OwnShare:
     """
 
     def __init__(self, share: FieldShare) -> None:
-        self._model = share.model(loads=share.loads, node_numbers=share.node_numbers)
-        self._fields, self._numbers, self.nodes = Fields(self._model), share.numbers, share.nodes
+        part, mine = share
+        self._model = part.strained()
+        self._fields, self._numbers, self.nodes = Fields(self._model), part.numbers, part.nodes
         by_family = self._model.mesh.by_family
-        written = by_family(np.where(share.own, share.body, -1))
-        families = list(zip(by_family(share.body), written, strict=True))
+        written = by_family(np.where(mine, part.body, -1))
+        families = list(zip(by_family(part.body), written, strict=True))
         self._kept = [
-            own[body == i] == i for i in range(len(share.bodies)) for body, own in families if (body == i).any()
+            own[body == i] == i for i in range(len(part.bodies)) for body, own in families if (body == i).any()
         ]
-        parts = zip(share.cells.values(), written, strict=True)
-        nodes = np.flatnonzero(among((cells[own >= 0] for cells, own in parts), len(share.nodes)))
+        cells_of = zip(part.cells.values(), written, strict=True)
+        nodes = np.flatnonzero(among((cells[own >= 0] for cells, own in cells_of), len(part.nodes)))
         self._own = {  # of the mesh, and of the share
-            "nodes": (share.nodes[nodes], nodes),
-            "cells": (share.cell_numbers[share.own], np.flatnonzero(share.own)),
+            "nodes": (part.nodes[nodes], nodes),
+            "cells": (part.cell_numbers[mine], np.flatnonzero(mine)),
         }
         self.state: State
+        self._further: dict[str, Array] = {}
 
     def fields(self) -> BodyFields:
-        """Own cells in the state."""
-        fields = self._fields.at(self.state, strained=True).among(self._kept)
+        """Own cells in the state, with what criteria of fatigue say of it."""
+        fields = replace(self._fields.at(self.state, strained=True), further=self._further).among(self._kept)
+        self._further = {}
         return replace(fields, body=tuple(self._numbers[body] for body in fields.body))
+
+    def hear_of_fatigue(self, arrays: Sequence[str], rows: JudgedRows) -> None:
+        """Know some of the values of point arrays of the state, which are NaN otherwise.
+
+        Parameters
+        ----------
+        arrays, rows : their names, and what is known
+        """
+        bodies = self._fields.stresses(self.state)
+        here, place = places_among(rows.node, self.nodes)
+        at = points_of(bodies, rows.body[here], place)
+        own = at >= 0
+        for name, values in zip(arrays, rows.values, strict=True):
+            found = self._further.setdefault(name, np.full(sum(len(body.nodes) for body in bodies), np.nan))
+            found[at[own]] = values[here][own]
 
     def values(self, of: Of, what: str, numbers: IntArray) -> tuple[BoolArray, Array] | None:
         """Which of some cells of the mesh are own ones, or nodes are of such, and values there; None where none is.
@@ -105,7 +142,7 @@ class FieldsOnRanks:
 
     def _kept(self, made: Iterator[FieldShare]) -> Iterator[FieldShare]:
         for share in made:
-            self._nodes.append(share.nodes)
+            self._nodes.append(share.part.nodes)
             self._writing.append(bool(share.own.any()))
             yield share
 
@@ -121,7 +158,9 @@ class FieldsOnRanks:
         ranks = (rank for rank, writes in enumerate(self._writing) if writes)
         return [*((folder / f"{path.stem}_rank{rank}.vtu").as_posix() for rank in ranks), name]
 
-    def write(self, state: State, folder: Path, name: str, *, compress: bool = False) -> None:
+    def write(
+        self, state: State, folder: Path, name: str, *, compress: bool = False, results: Sequence[FatigueResult] = ()
+    ) -> None:
         """Write a state: every rank its file, and when all are there the first one the index.
 
         Parameters
@@ -129,6 +168,7 @@ class FieldsOnRanks:
         state : with its displacement
         folder, name : for the files, and of the index in it
         compress : whether files are to be half as large, which takes several times as long
+        results : what criteria of fatigue say, which files hold too
 
         Raises
         ------
@@ -136,6 +176,8 @@ class FieldsOnRanks:
             If a rank cannot write its file.
         """
         self._tell(state)
+        for number, result in enumerate(results, start=1):
+            self._tell_fatigue(fatigue_arrays(number, result), result)
         *files, _ = self.files(name)
         (folder / files[0]).parent.mkdir(exist_ok=True)
         paths = iter([str((folder / file).resolve()) for file in files])
@@ -176,6 +218,13 @@ class FieldsOnRanks:
             result[here] = values
         return result
 
+    def _tell_fatigue(self, arrays: Mapping[str, str], result: FatigueResult) -> None:
+        """Have ranks know point arrays of a criterion, some places at a time."""
+        for some in portions(result.count):
+            body, node = (stored(result, name)[some] for name in ("body", "node"))
+            rows = JudgedRows(body, node, [stored(result, name)[some] for name in arrays.values()])
+            self._team.everywhere(_hear_of_fatigue, self._number, list(arrays), rows)
+
     def _tell(self, state: State) -> None:
         """Have ranks know a state at the nodes of their shares, unless it is the last one that they were told."""
         if self._told is state:
@@ -190,16 +239,10 @@ class FieldsOnRanks:
 
 
 def fields_on_ranks(history: History) -> FieldsOnRanks | None:
-    """The bodies of a history that several ranks have solved; None where one process writes one file.
-
-    Such are fatigue, which the first rank looks for in the stresses of all nodes, and cyclic sectors, whose averages
-    take in cells of the other side.
-    """
+    """The bodies of a history that several ranks have solved; None where one process writes one file."""
     team, model = several_ranks(), history.model
     owner = None if team is None else team.owners.get(model.mesh)
-    if team is None or owner is None or model.fatigue or model.cyclic_symmetries:
-        return None
-    return FieldsOnRanks(team, model, owner)
+    return None if team is None or owner is None else FieldsOnRanks(team, model, owner)
 
 
 def _part_of(state: State, u: Array | None, nodes: IntArray) -> Instant:
@@ -237,6 +280,13 @@ def _hear(team: Team, state: Instant | None, number: int, moved: tuple[int, IntA
     u = None if moved is None else rows_of_all(team, *moved, nodes)
     if own is not None and state is not None:
         own.state = state if u is None else replace(state, displacement=u)
+
+
+def _hear_of_fatigue(team: Team, number: int, arrays: Sequence[str], rows: JudgedRows) -> None:
+    """Know values of point arrays, see `OwnShare.hear_of_fatigue`."""
+    own: OwnShare | None = team.held.get(number)
+    if own is not None:
+        own.hear_of_fatigue(arrays, rows)
 
 
 def _values(team: Team, number: int, of: Of, what: str, numbers: IntArray) -> tuple[BoolArray, Array] | None:

@@ -108,25 +108,25 @@ def _accuracy(history: History) -> dict[str, Any] | None:
 
 def _fatigue(model: Model, result: FatigueResult) -> dict[str, Any]:
     """One criterion and its worst place; null is what it does not know, and a life without end."""
-    i, request = result.worst, result.request
+    one, request = result.at_worst, result.request
     return {
         "criterion": request.criterion.table,
         "where": list(request.where),
         "steps": list(result.steps),
         "distance": request.distance,
         "average": request.average,
-        "places": len(result.node),
+        "places": result.count,
         "moments": result.moments,
         "exact": result.exact,
         "worst": {
-            "parameter": float(result.parameter[i]),
-            "amplitude": float(result.amplitude[i]),
-            "stress": float(result.stress[i]),
-            "body": str(result.body[i]),
-            "node": int(model.mesh.labels[result.node[i]]),
-            "at": _list(result.points[i]),
-            "plane": _list(result.plane[i]) if result.planes else None,
-            "life": float(result.life[i]) if math.isfinite(result.life[i]) else None,
+            "parameter": float(one.parameter[0]),
+            "amplitude": float(one.amplitude[0]),
+            "stress": float(one.stress[0]),
+            "body": str(one.body[0]),
+            "node": int(model.mesh.labels_of(one.node)[0]),
+            "at": _list(one.points[0]),
+            "plane": _list(one.plane[0]) if result.planes else None,
+            "life": float(one.life[0]) if math.isfinite(one.life[0]) else None,
         },
     }
 

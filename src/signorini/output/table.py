@@ -7,7 +7,8 @@ import textwrap
 from collections.abc import Collection, Iterator, Sequence
 from itertools import zip_longest
 
-from signorini.arrays import Array, IntArray, largest, stored
+from signorini.arrays import Array, largest, stored
+from signorini.model.mesh import Mesh
 from signorini.solution.accuracy import AccuracyResult
 from signorini.solution.certificate import TOLERANCE
 from signorini.solution.fatigue_result import FatigueResult
@@ -154,23 +155,23 @@ def _wear_lines(step: StepResult) -> Iterator[str]:
 
 def fatigue_lines(history: History) -> list[str]:
     """The worst places of all fatigue criteria, an empty line before each."""
-    labels, lines = history.model.mesh.labels, []
+    mesh, lines = history.model.mesh, []
     for result in history.fatigue_results:
-        lines += ["", *textwrap.wrap(_fatigue_line(result, labels), 112, subsequent_indent="    ")]
+        lines += ["", *textwrap.wrap(_fatigue_line(result, mesh), 112, subsequent_indent="    ")]
     return lines
 
 
-def _fatigue_line(result: FatigueResult, labels: IntArray) -> str:
+def _fatigue_line(result: FatigueResult, mesh: Mesh) -> str:
     """The worst place of a fatigue criterion, and its plane."""
-    i = result.worst
+    one = result.at_worst
     amplitude, stress = result.request.criterion.terms
-    plane = f", on the plane with the normal {spell_vector(result.plane[i], _ROUNDING_TOL)}" if result.planes else ""
-    life = f"; life {result.life[i]:.4g} cycles" if result.lives else ""
+    plane = f", on the plane with the normal {spell_vector(one.plane[0], _ROUNDING_TOL)}" if result.planes else ""
+    life = f"; life {one.life[0]:.4g} cycles" if result.lives else ""
     below = f", {result.request.average} at distance {result.request.distance:g}" if result.request.distance else ""
     return (
-        f"fatigue, {result.name} over {', '.join(result.steps)}{below}: at most {result.parameter[i]:.5g} in "
-        f"'{result.body[i]}' at node {labels[result.node[i]]}, {spell_vector(result.points[i])}{plane}: {amplitude} "
-        f"{result.amplitude[i]:.5g}, {stress} {result.stress[i]:.5g}{life}"
+        f"fatigue, {result.name} over {', '.join(result.steps)}{below}: at most {one.parameter[0]:.5g} in "
+        f"'{one.body[0]}' at node {mesh.labels_of(one.node)[0]}, {spell_vector(one.points[0])}{plane}: {amplitude} "
+        f"{one.amplitude[0]:.5g}, {stress} {one.stress[0]:.5g}{life}"
     )
 
 

@@ -33,9 +33,7 @@ _LETTERS = {"f": "Float", "i": "Int", "u": "UInt"}  # of kinds of numbers, in th
 _SURFACE_CELLS = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
 
 
-def write_bodies(
-    fields: BodyFields, path: Path, further: Mapping[str, Array] | None = None, *, compress: bool = False
-) -> None:
+def write_bodies(fields: BodyFields, path: Path, *, compress: bool = False) -> None:
     """Write displacements, stresses, strains and forces of the bodies in one state.
 
     Point arrays: ``displacement`` (3 components, length), ``stress`` (xx, yy, zz, xy, yz, xz, force per area, tension
@@ -51,19 +49,17 @@ def write_bodies(
     ----------
     fields : of the bodies
     path : of the file
-    further : point arrays by name, (n,)
     compress : whether the file is to be half as large, which takes several times as long
     """
-    write_grid(grid_of(fields, further), path, compress=compress)
+    write_grid(grid_of(fields), path, compress=compress)
 
 
-def grid_of(fields: BodyFields, further: Mapping[str, Array] | None = None) -> meshio.Mesh:
+def grid_of(fields: BodyFields) -> meshio.Mesh:
     """What :func:`write_bodies` writes.
 
     Parameters
     ----------
     fields : of the bodies
-    further : point arrays by name, (n,)
     """
     import meshio
 
@@ -83,7 +79,7 @@ def grid_of(fields: BodyFields, further: Mapping[str, Array] | None = None) -> m
             **({} if fields.plastic is None else _plastic(fields.plastic)),
             **{name: values for name, values in rare.items() if values is not None},
             **{name: padded(values, 3) for name, values in forces.items() if values is not None},
-            **(further or {}),
+            **fields.further,
         },
         cell_data={
             "body": list(fields.body),

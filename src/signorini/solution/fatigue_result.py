@@ -3,16 +3,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from signorini.arrays import Array, IntArray
+from signorini.arrays import Array, IntArray, elsewhere, in_blocks, stored
 from signorini.model.fatigue import Fatigue
 from signorini.short import Short
 
+PER_PLACE = ("body", "node", "points", "parameter", "amplitude", "stress", "plane", "life")
+"""What of a `FatigueResult` has a row for every place."""
 
+
+@elsewhere(*PER_PLACE)
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class FatigueResult(Short):
     """A fatigue criterion at p places.
@@ -51,16 +55,41 @@ class FatigueResult(Short):
         return self.request.criterion.name
 
     @property
+    def count(self) -> int:
+        """Of places."""
+        return int(stored(self, "parameter").shape[0])
+
+    @property
     def worst(self) -> int:
-        """The place with the largest parameter."""
-        return int(self.parameter.argmax())
+        """The place with the largest parameter, of equal ones the first."""
+        ends = [(first + k, rows[k]) for first, rows in in_blocks(stored(self, "parameter")) for k in _most(rows)]
+        return ends[int(np.argmax([value for _, value in ends]))][0]
 
     @property
     def planes(self) -> bool:
         """Whether the criterion knows critical planes."""
-        return bool(np.isfinite(self.plane).any())
+        return any(bool(np.isfinite(rows).any()) for _, rows in in_blocks(stored(self, "plane")))
 
     @property
     def lives(self) -> bool:
         """Whether lives are known."""
-        return not bool(np.isnan(self.life).any())
+        return not any(bool(np.isnan(rows).any()) for _, rows in in_blocks(stored(self, "life")))
+
+    @property
+    def at_worst(self) -> FatigueResult:
+        """At the place with the largest parameter alone."""
+        return self.among(np.array([self.worst]))
+
+    def among(self, places: IntArray) -> FatigueResult:
+        """At some of the places.
+
+        Parameters
+        ----------
+        places : (k,) their numbers
+        """
+        return replace(self, **{name: stored(self, name)[places] for name in PER_PLACE})
+
+
+def _most(values: Array) -> list[int]:
+    """The first of the largest of some values, if there are any."""
+    return [int(values.argmax())] if len(values) else []

@@ -76,9 +76,9 @@ def outputs_of(history: History) -> dict[str, float]:
         if contact.wear is not None:
             found[f"{contact.name}.max_depth"] = float(max(contact.wear.deepest))
     for number, result in enumerate(history.fatigue_results, start=1):
-        found[f"fatigue_{number}.parameter"] = float(result.parameter[result.worst])
+        found[f"fatigue_{number}.parameter"] = float(result.at_worst.parameter[0])
         if result.lives:
-            found[f"fatigue_{number}.life"] = float(result.life[result.worst])
+            found[f"fatigue_{number}.life"] = float(result.at_worst.life[0])
     if history.accuracy is not None:
         found |= {"pressure_error": history.accuracy.pressure, "nodes": len(history.model.mesh.points)}
     return found
