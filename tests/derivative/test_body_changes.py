@@ -15,6 +15,7 @@ from signorini.engine.prepare import prepare
 from signorini.fem.kinematics import straining_groups
 from signorini.fem.space import make_space
 from signorini.fem.stiffness import stiffness, stiffness_change
+from signorini.gallery.sectors import ring_on_pads
 from tests.derivative.rig import STEPS, rig
 
 
@@ -89,3 +90,17 @@ def test_sums_over_contact_nodes_are_those_over_displacements_of_all_states(kind
     for one, other in zip(by_sums, found(), strict=True):
         assert one[:2] == pytest.approx(other[:2], rel=1e-8)
         assert one[2:] == pytest.approx(other[2:], rel=1e-7)  # sums see cells exactly, states by differences
+
+
+def test_a_stress_on_the_side_of_a_sector_knows_the_cells_at_its_other_side():
+    model = ring_on_pads(whole=False)
+    body, node = model.bodies[0], int(model.mesh.nodes_of("ring.start")[2])
+    output = sg.stress(body.name, node, "xx")
+
+    def stress(nu):
+        changed = replace(body, material=replace(body.material, nu=nu))
+        return sg.solve(replace(model, bodies=[changed, *model.bodies[1:]]), tape=True).derivative(output).value
+
+    nu, step = body.material.nu, 1e-4
+    found = sg.solve(model, tape=True).derivative(output).nu[body.name]
+    assert found == pytest.approx((stress(nu + step) - stress(nu - step)) / (2.0 * step), rel=1e-6)

@@ -107,6 +107,13 @@ def test_columns_are_a_table(cut):
         assert isinstance(there @ w.sum(axis=1), ArrayElsewhere)
         for values in (x, a):
             np.testing.assert_allclose(there.T @ values, here.T @ x, rtol=1e-13)
+        np.testing.assert_allclose(there.T @ (there @ w), here.T @ (here @ w), rtol=1e-13, atol=1e-14)
+        np.testing.assert_array_equal(2.0 * there - there, here)
+        np.testing.assert_array_equal(there[:, 1:], here[:, 1:])
+    table, kept = ColumnsOnRanks(cut, [a, b]), ColumnsOnRanks(cut, [a, b])
+    table[:, 1:] += kept[:, :1]
+    np.testing.assert_array_equal(table, np.stack([x, y + x], axis=1))
+    np.testing.assert_array_equal(kept, np.stack([x, y], axis=1))
     assert isinstance(np.zeros_like(a), ArrayElsewhere)
     assert not np.zeros_like(a).any()
 

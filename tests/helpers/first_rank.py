@@ -18,16 +18,18 @@ import numpy as np
 
 import signorini as sg
 from signorini.clock import Clock
+from signorini.derivative import body_side
 from signorini.distributed.ranks import Team, lend
 from signorini.engine import prepare, validity_notes
 from signorini.engine import solve as following
 from signorini.engine.fatigue_on_ranks import PlacesOnRanks
-from signorini.fem import loads, supports
+from signorini.fem import loads, space, supports
 from signorini.meshing.cut import cut
 from signorini.meshing.plane import annulus
 from signorini.meshing.solid import box
 from signorini.model.mesh import join
 from signorini.model.obstacle import Plane
+from signorini.model.outputs import WeightedSum
 from signorini.output import by_rows
 from signorini.output.dat import write_dat
 from signorini.output.fields import Fields
@@ -50,8 +52,19 @@ def column(**more):
         "contacts": [sg.Contact("bottom", Plane((0, 0, 0), (0, 0, 1)), friction=0.3)],
         "steps": [sg.Step(increments=2)],
     }
-    bodies = [sg.Body("block", sg.Elastic(E=1.0, nu=0.3, density=1.0))]
-    return sg.Model(box(x=side, y=side, z=np.linspace(0.0, 30.0, 181)), bodies=bodies, **(given | more))
+    given["bodies"] = [sg.Body("block", sg.Elastic(E=1.0, nu=0.3, density=1.0))]
+    return sg.Model(box(x=side, y=side, z=np.linspace(0.0, 30.0, 181)), **(given | more))
+
+
+def leaning(**more):
+    """The column above a plane that leans, on which its nodes come down one after the other."""
+    side, plane = np.linspace(0.0, 1.0, 3), Plane((0, 0, -0.001), (0.002, 0.001, 1))
+    return replace(
+        column(),
+        mesh=box(x=side, y=side, z=np.linspace(0.0, 30.0, 401)),
+        supports=[sg.Support("top", u=(0, 0.001, -0.01))],
+        contacts=[sg.Contact("bottom", plane, friction=0.3, **more)],
+    )
 
 
 def bolted():
@@ -78,14 +91,16 @@ def stacked(gap=0.0, **more):
     return sg.Model(mesh, bodies=bodies, **(given | more))
 
 
-def strip():
-    """A tall strip that is pressed on a leaning plane, and turned aside."""
+def strip(**more):
+    """A tall strip that is pressed on a leaning plane, and turned aside; some of its left side is named."""
+    mesh = sg.rectangle(x=np.linspace(0.0, 1.0, 5).tolist(), y=np.linspace(0.0, 30.0, 601).tolist())
     return sg.Model(
-        sg.rectangle(x=np.linspace(0.0, 1.0, 5).tolist(), y=np.linspace(0.0, 30.0, 601).tolist()),
+        replace(mesh, boundaries=dict(mesh.boundaries) | {"bed": mesh.boundaries["left"][300:320]}),
         bodies=[sg.Body("block", sg.Elastic(E=1.0, nu=0.3))],
         supports=[sg.Support("top", u=(0.001, -0.3))],
         contacts=[sg.Contact("bottom", Plane((0.0, -0.01), (0.05, 1.0)), friction=0.3)],
         steps=[sg.Step(path="exact")],
+        **more,
     )
 
 
@@ -113,27 +128,37 @@ def judged(body, contact):
     return [sg.Fatigue(sg.fatigue.SWT(), where=body), sg.Fatigue(sg.fatigue.Ruiz(), where=contact)]
 
 
-def solved(model, backend):
+def solved(model, backend, _):
     """The history of a model, whatever ends it."""
     return following.solve(model, backend=backend, raise_on_failure=False)
 
 
-def derived(model, backend):
-    """The history of a model, of which was asked how two outputs change with friction, stiffness and gaps."""
-    found = sg.solve(model, backend=backend, tape=True)
-    for output in (sg.pressure("bottom").peak, sg.displacement(2000, along=(0.0, 1.0))):
-        change = found.derivative(output)
-        assert change.value
-        assert all(np.any(by) for by in (change.friction["bottom"], change.E["block"], change.gap["bottom"]))
+def derived(model, backend, motion):
+    """The history of a model, of which was asked how outputs change with friction, stiffness, gaps and places."""
+    found, middle = sg.solve(model, backend=backend, tape=True), model.mesh.number_of_nodes // 2
+    outputs = [
+        sg.pressure("bottom").mean(),
+        sg.displacement(middle, along=(0.0,) * (model.dimension - 1) + (1.0,)),
+        sg.stress("block", middle, "xx"),
+    ]
+    change = found.derivative(WeightedSum(parts=tuple(zip((1.0, 2.0, 3.0), outputs, strict=True))))
+    assert np.isfinite(change.friction["bottom"])  # it is none where all pairs stick
+    assert change.E["block"] * change.nu["block"] * change.shape(motion)
+    assert change.holds("nu.block").low < 0.0 < change.holds("nu.block").high
+    assert change.gap["bottom"].any()
+    assert change._by_nodes.any()
     return found
 
 
-ASKED = {"derivatives": derived}
+ASKED = dict.fromkeys(("derivatives", "on springs", "derivatives in space", "derivatives of increments"), derived)
 FACTORISED = (  # whatever they are asked for
-    *("derivatives", "exact path", "fatigue on an exact path", "rests, approaches", "switched off"),
+    *(*ASKED, "exact path", "fatigue on an exact path", "rests, approaches", "switched off"),
 )
 MODELS = {
     "derivatives": strip,
+    "on springs": lambda: strip(foundations=[sg.Foundation("bed", normal_stiffness=0.01)]),
+    "derivatives in space": lambda: replace(leaning(facets=8), steps=[sg.Step(path="exact")]),
+    "derivatives of increments": leaning,
     "bolted column": bolted,
     "column": column,
     "pushed far": lambda: column(supports=[sg.Support("top", u=(0, 0, -6.0))], steps=[sg.Step(increments=1)]),
@@ -183,6 +208,11 @@ MODELS = {
 }
 
 
+def square(array):
+    """Whether an array is a square matrix, which is of the interface: none of all displacements is dense."""
+    return array.ndim == 2 and len(array) == array.shape[1]
+
+
 def large(roots, count):
     """Ways to arrays of ``count`` numbers and more that are not whole."""
     found, seen, left = [], set(), [(name, each) for name, each in roots.items()]
@@ -192,7 +222,7 @@ def large(roots, count):
             continue
         seen.add(id(each))
         if isinstance(each, np.ndarray):
-            if each.dtype.kind == "f" and each.size >= count:
+            if each.dtype.kind == "f" and each.size >= count and not square(each):
                 found.append(f"{way} {each.shape}")
         elif isinstance(each, types.FunctionType):
             left += [(way, cell.cell_contents) for cell in each.__closure__ or ()]
@@ -206,11 +236,13 @@ def large(roots, count):
 class Watch:
     """Notes functions of ours that have, when they return, so many numbers that are not whole in an array.
 
-    What the first rank does as one of the ranks is left out, and square matrices, which are of the interface.
+    What the first rank does as one of the ranks is left out, square matrices, which are of the interface, a motion of
+    all nodes that is given, and places of nodes, a little moved ones too, which it has while it makes pairs anew.
     """
 
-    def __init__(self, count):
-        self.found, self.count, self.elsewhere = set(), count, 0
+    def __init__(self, points, motion):
+        self.found, self.count, self.elsewhere = set(), len(points), 0
+        self.points, self.motion = points.copy(), motion
 
     @contextmanager
     def away(self):
@@ -242,8 +274,16 @@ class Watch:
         """Whether something is such an array, or lists one."""
         if isinstance(value, list | tuple | dict):
             return any(map(self.large, value.values() if isinstance(value, dict) else value))
-        array = isinstance(value, np.ndarray) and value.dtype.kind == "f" and value.size >= self.count
-        return array and not (value.ndim == 2 and len(value) == value.shape[1])
+        if not (isinstance(value, np.ndarray) and value.dtype.kind == "f" and value.size >= self.count):
+            return False
+        return not (square(value) or np.may_share_memory(value, self.motion) or self.places(value))
+
+    def places(self, value):
+        """Whether an array holds where all nodes are, and obstacles behind them."""
+        count, d = self.points.shape
+        if value.ndim != 2 or value.shape[1] != d or len(value) < count:
+            return False
+        return np.allclose(value[:count], self.points, rtol=0, atol=1e-3)
 
 
 def written_otherwise(history, prints, folder):
@@ -254,6 +294,16 @@ def written_otherwise(history, prints, folder):
     write_frd(history, fields, folder / "one.frd", prints.times)
     write_dat(history, fields, prints, folder / "one.dat")
     return [table for end in ("frd", "dat") for table in differing(folder / f"one.{end}", folder / f"solution.{end}")]
+
+
+def published(history):
+    """Write all files of a history; what `written_otherwise` finds of them."""
+    with tempfile.TemporaryDirectory() as name:
+        folder, prints = Path(name), all_prints(history.model, len(history.steps))
+        Publisher(folder=folder, clock=Clock(), started=0.0, prints=prints).publish(history)
+        assert history_table(history)
+        sys.setprofile(None)
+        return written_otherwise(history, prints, folder)
 
 
 def main():
@@ -275,11 +325,14 @@ def main():
     with sg.ranks() as first:
         if first:
             model = MODELS[name]()
+            motion = np.sin(model.mesh.points)
             lend(model.mesh)
-            watch, kept = Watch(model.mesh.number_of_nodes), solver_on_ranks.kept_on_ranks
+            watch, kept = Watch(model.mesh.points, motion), solver_on_ranks.kept_on_ranks
             watch.without(Team, "_done")
             for made in ("transform_of", "selection"):  # of other supports: which displacements are free, and ones
                 watch.without(supports, made)
+            for module, made in ((body_side, "make_interface"), (space, "make_facets")):  # pairs where nodes have moved
+                watch.without(module, made)
             watch.without(prepare, "resistance")  # what they hold of rigid motions: one is the side of the column
 
             def kept_on_ranks(*given):
@@ -291,13 +344,9 @@ def main():
             solver_on_ranks.kept_on_ranks = kept_on_ranks
             for sending in (FieldsOnRanks, PlacesOnRanks):
                 watch.without(sending, "__init__")  # ranks are sent their cells
-            history = ASKED.get(name, solved)(model, backend)
-            with tempfile.TemporaryDirectory() as name:
-                folder, prints = Path(name), all_prints(model, len(history.steps))
-                Publisher(folder=folder, clock=Clock(), started=0.0, prints=prints).publish(history)
-                assert history_table(history)
-                sys.setprofile(None)
-                found["files of text"] = written_otherwise(history, prints, folder)
+            history = ASKED.get(name, solved)(model, backend, motion)
+            found["files of text"] = [] if name in ASKED else published(history)
+            sys.setprofile(None)
             found["watched"] = sorted(watch.found)
             found["end"] = large({"model": model, "history": history}, model.mesh.number_of_nodes)
             print(json.dumps(found))

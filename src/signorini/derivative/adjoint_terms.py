@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -13,9 +14,6 @@ from signorini.arrays import Array
 from signorini.derivative.conditions import PieceEvent
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint
-from signorini.engine.prepare import Prepared
-from signorini.fem.displacement_products import Products
-from signorini.fem.node_work import add_node_work
 from signorini.law.bound import FrictionBound
 
 
@@ -98,6 +96,13 @@ class TermStack:
         return float(np.vdot(of_motion, motion) + of_resultant @ resultant)
 
 
+class ByPlaces(Protocol):
+    """A part of a sum over a history of products of adjoint and actual displacements, ``sum w . K u``."""
+
+    def by_places(self) -> Any:
+        """(nodes d,) How it changes with the place of every node, where vectors of all displacements are."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Adjoint:
     """An output by everything that drives the points.
@@ -109,7 +114,8 @@ class Adjoint:
     remembered : (d - 1, n) per length, with tangential motions that are remembered before the first point
     behind : (d - 1, n) the same behind some points, by number
     weights : how the output changes with motions and forces directly, by number of the point
-    by_places : (nodes, d) by numbers of points, how the output changes with places of nodes by stresses there, kept
+    by_places : (nodes d,) by numbers of points, how the output changes with places of nodes by stresses there, kept
+        where vectors of all displacements are
     pulled : (z,) by number of the point, of outputs of bodies: free displacements where what the output changes with
         pulls on them
     """
@@ -119,23 +125,19 @@ class Adjoint:
     remembered: Array
     behind: dict[int, Array] = field(default_factory=dict)
     weights: dict[int, Weights] = field(default_factory=dict)
-    by_places: dict[tuple[int, ...], Array] = field(default_factory=dict)
+    by_places: dict[tuple[int, ...], Any] = field(default_factory=dict)
     pulled: dict[int, Array] = field(default_factory=dict)
 
-    def work_by_places(self, own: Sequence[int], prepared: Prepared, products: Iterable[Products]) -> Array:
-        """(nodes, d) How ``sum w . K u`` changes with the place of every node, kept.
+    def work_by_places(self, own: Sequence[int], parts: Iterable[ByPlaces]) -> Any:
+        """(nodes d,) How ``sum w . K u`` changes with the place of every node, kept.
 
         Parameters
         ----------
         own : numbers of the points that it is over
-        prepared : the bodies
-        products : of w and u, which are not asked for again
+        parts : of the sum, which are not asked for again
         """
         if tuple(own) not in self.by_places:
-            found = np.zeros_like(prepared.space.mesh.points)
-            for part in products:
-                add_node_work(found, prepared.space, prepared.model, part)
-            self.by_places[tuple(own)] = found
+            self.by_places[tuple(own)] = sum(part.by_places() for part in parts)
         return self.by_places[tuple(own)]
 
     @cached_property

@@ -12,24 +12,24 @@ where bodies are condensed onto contact nodes that is found without h', from sum
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 
 from signorini.arrays import Array
-from signorini.derivative.adjoint_terms import Adjoint, BoundTerm
+from signorini.derivative.adjoint_terms import Adjoint, BoundTerm, ByPlaces
 from signorini.derivative.body_side import BodySide, multiplier
 from signorini.derivative.contact_sums import ContactSums
 from signorini.derivative.interface_system import InterfaceSystem
-from signorini.derivative.low_rank import StateColumns, columns_of, of_same_bodies, state_columns
+from signorini.derivative.low_rank import StateColumns, columns_of, of_same_bodies, state_columns, times
 from signorini.derivative.pair_change import PairChange
 from signorini.derivative.points import TapePoint
 from signorini.derivative.view import HistoryView
 from signorini.engine.prepare import Prepared
-from signorini.fem.displacement_products import Products
 from signorini.fem.kinematics import straining_groups
 
 _SUBSTITUTED_POINTS = 3  # points of a history at most: adjoint displacements are found one by one of so many
@@ -63,11 +63,9 @@ class BodyChange:
         return _SAME_CONDITION / self.step
 
     @cached_property
-    def stiffness(self) -> sp.csr_array:
-        """(dofs, dofs) K'."""
-        found = self.low.stiffness_change(self.high)
-        found.data /= 2.0 * self.step
-        return found
+    def stiffness(self) -> Any:
+        """(dofs, dofs) K', see `BodySide.stiffness_change`."""
+        return self.low.stiffness_change(self.high, 2.0 * self.step)
 
     @cached_property
     def loads(self) -> Mapping[str, Array]:
@@ -129,10 +127,10 @@ class BodyChange:
             forces = columns.forces.reshape(-1, k)
             moved = self.pairs.motions(columns.system, u, forces, columns.one)
             found += float(np.vdot(columns.motion.reshape(-1, k), moved))
-            found += float(np.vdot(self.pairs.on_bodies(columns.system, forces), w))
+            found += float(np.vdot(forces, self.pairs.seen(columns.system, w)))
         for name, f in self.loads.items():
             found += float(f @ (w @ columns.factor(name)))
-        return found - self._of_cells(own, adjoint, [Products.of(w, u)])
+        return found - self._of_cells(own, adjoint, columns)
 
     @cached_property
     def _by_cells(self) -> bool:
@@ -144,16 +142,16 @@ class BodyChange:
             and all(group.formulation == "standard" for group in straining_groups(self.prepared.space, model))
         )
 
-    def _of_cells(self, own: Sequence[int], adjoint: Adjoint, products: Iterable[Products]) -> float:
+    def _of_cells(self, own: Sequence[int], adjoint: Adjoint, sums: ByPlaces) -> float:
         """``sum w . K' u`` where nodes move.
 
         Parameters
         ----------
         own, adjoint : numbers of the points, and the output's way back, which keeps what every node does
-        products : of w and u
+        sums : over these points
         """
         assert self.motion is not None
-        return float(np.vdot(adjoint.work_by_places(own, self.prepared, products), self.motion))
+        return float(adjoint.work_by_places(own, [sums]) @ self.motion.ravel())
 
     def _by_sums(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float | None:
         """What it changes through points of the same bodies; None where pairs see more than their contact nodes."""
@@ -170,7 +168,7 @@ class BodyChange:
         for name in self.loads.keys() & sums.weighted.keys():
             found += float(self.loads[name] @ sums.weighted[name])
         if self._by_cells and not len(self.prepared.constraints.dependent):
-            return found - self._of_cells(own, adjoint, map(ContactSums.of_cells, [sums]))
+            return found - self._of_cells(own, adjoint, sums)
         return found - sums.of_stiffness(self.stiffness)
 
     def _by_states(self, points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint) -> float:
@@ -192,15 +190,14 @@ class BodyChange:
             return replace(low, interface=self.pairs.low), replace(high, interface=self.pairs.high)
         return low, high
 
-    def _forces(self, system: InterfaceSystem, states: StateColumns) -> Array:
-        """(dofs, k) ``f' + B'^T r - K' u``."""
-        forces = self.stiffness @ states.displacement
-        np.negative(forces, out=forces)
+    def _forces(self, system: InterfaceSystem, states: StateColumns) -> Any:
+        """(dofs, k) ``f' + B'^T r - K' u``, where vectors of all displacements are."""
+        forces = -(self.stiffness @ states.displacement)
         for name, f in self.loads.items():
-            forces += np.outer(f, states.factor(name))
+            forces += times(system.prepared.constraints, f, states.factor(name))
         if self.pairs is not None:
             forces += self.pairs.on_bodies(system, states.forces)
-        return np.asarray(forces)
+        return forces
 
     def _of(self, system: InterfaceSystem, states: StateColumns) -> tuple[Array, Array]:
         """(d a, k) Motions of the pairs, and (motions, k) resultants."""

@@ -25,6 +25,7 @@ from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.low_rank import state_blocks, term_blocks
 from signorini.derivative.points import TapePoint
 from signorini.fem.displacement_products import Products
+from signorini.fem.node_work import add_node_work
 from signorini.fem.stiffness import reduced_stiffness
 from signorini.linalg.multifrontal import MultifrontalFactorisation
 from signorini.linalg.protocol import Reduced
@@ -90,7 +91,14 @@ class ContactSums:
         M = self._w @ self._u.T
         return response.factorisation.products(0.5 * (M + M.T), of_free)
 
-    def of_cells(self) -> Products:
+    def by_places(self) -> Array:
+        """(nodes d,) How the sum of ``w_i . K u_i`` changes with the place of every node."""
+        prepared = self.system.prepared
+        found = np.zeros_like(prepared.space.mesh.points)
+        add_node_work(found, prepared.space, prepared.model, self._of_cells())
+        return found.ravel()
+
+    def _of_cells(self) -> Products:
         """The sum for dofs that share a cell; no dof follows from others in equations."""
         K, prepared = self.system.prepared.K, self.system.prepared
         of_free = reduced_stiffness(sp.csr_array((np.ones(K.nnz), K.indices, K.indptr), K.shape), self._transform)

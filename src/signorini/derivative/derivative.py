@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -213,6 +214,12 @@ class Derivative(DirectionalDerivative):
             Where motions of single nodes do not add up: those of a straight side opposite another meshed one, and
             those that take apart what pairs do together.
         """
+        points = self._history.prepared.model.mesh.points
+        return np.array(self._by_nodes).reshape(points.shape)
+
+    @cached_property
+    def _by_nodes(self) -> Any:
+        """(nodes d,) What `nodes` is, where displacements are."""
         found = node_gradient(self._history.view, self._adjoint, self._read)
         self.refuse_by_nodes("nodes")
         return found

@@ -21,7 +21,7 @@ class ShapeWeights:
     Attributes
     ----------
     area, normals, tangents, moments : with those of `Interface`, each of its shape, moments (d, n, 1 or 3)
-    places : (nodes, d) with places of nodes themselves
+    places : (n, d) with places of the nodes of the pairs themselves
     """
 
     area: Array
@@ -39,7 +39,7 @@ class ShapeWeights:
             normals=np.zeros_like(interface.normals),
             tangents=np.zeros_like(interface.tangents),
             moments=np.zeros((interface.directions, len(interface), interface.moments.shape[1])),
-            places=np.zeros_like(view.space.mesh.points),
+            places=np.zeros((len(interface), view.space.dimension)),
         )
         for factor, part in output.parts if isinstance(output, WeightedSum) else ((1.0, output),):
             found._add(factor, part, view)
@@ -92,7 +92,7 @@ class ShapeWeights:
             s = (places - middle) @ tangent
         second = float(f @ s**2) / float(f.sum())
         per_place = factor * width / second * f * s / float(f.sum())
-        np.add.at(self.places, interface.node[own], per_place[:, None] * tangent)
+        self.places[own] += per_place[:, None] * tangent
         if not view.model.axisymmetric:
             turned = per_place @ (places - middle)
             turned -= (turned @ tangent) * tangent

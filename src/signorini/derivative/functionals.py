@@ -7,16 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from signorini.arrays import Array, BoolArray, IntArray
+from signorini.arrays import Array, BoolArray
 from signorini.derivative.adjoint_terms import Weights
 from signorini.derivative.points import TapePoint
+from signorini.derivative.stress_output import StressOutput, node_of
 from signorini.derivative.view import HistoryView
-from signorini.errors import InputError, one_of
-from signorini.fem.probe import StressProbe
-from signorini.fem.stress import DeformedBodies
+from signorini.errors import InputError
 from signorini.interface.interface import Interface
 from signorini.model.outputs import (
-    COMPONENTS,
     AtNode,
     Displacement,
     Dissipation,
@@ -39,7 +37,7 @@ def value(output: Output, view: HistoryView) -> float:
         return sum(factor * value(part, view) for factor, part in output.parts)
     i = view.number(output.load_factor)
     if isinstance(output, Displacement | Stress):
-        return _of_bodies(output, view, view.displacement(i), i)
+        return _of_bodies(output, view, view.displacement(i))
     if isinstance(output, Dissipation):
         return _dissipation(output, view, i)[0]
     return _of_pairs(output, view, i)[0]
@@ -73,58 +71,20 @@ def weights_at_start(output: Output, view: HistoryView, ahead: TapePoint | None)
 def displacement_weights(output: Displacement | Stress, view: HistoryView) -> Array:
     """(dofs,) How an output of bodies changes with displacements."""
     i = view.number(output.load_factor)
-    d, space = view.model.components, view.space
+    d, space, constraints = view.model.components, view.space, view.points[i].system.prepared.constraints
     if isinstance(output, Displacement):
-        constraints = view.points[i].system.prepared.constraints
         return constraints.spread(space.dofs(np.array(output.node)), _along(output.along, d))
-    around = nodes_around(output.node, view)
-    found, still = np.zeros((2, space.number_of_dofs))
-    none = stress_at(output, view, still, i)
-    for dof in (d * around[:, None] + np.arange(d)).ravel():
-        moved = still.copy()
-        moved[dof] = 1.0
-        found[dof] = stress_at(output, view, moved, i) - none
-    return found
+    stress = StressOutput(output, view)
+    return constraints.spread(space.dofs(stress.nodes).ravel(), stress.weights(d).ravel())
 
 
-def nodes_around(node: int, view: HistoryView) -> IntArray:
-    """Nodes of the cells of a node, sorted."""
-    cells = (block.cells for block in view.space.blocks)
-    return np.unique(np.concatenate([own[(own == node).any(axis=1)].ravel() for own in cells]))
-
-
-def _of_bodies(output: Displacement | Stress, view: HistoryView, u: Array, i: int) -> float:
+def _of_bodies(output: Displacement | Stress, view: HistoryView, u: Array) -> float:
     """An output of bodies under displacements (dofs,) at a point."""
     if isinstance(output, Stress):
-        return stress_at(output, view, u, i)
-    moved = u[view.space.dofs(np.array(_node(output.node, view)))]
+        stress = StressOutput(output, view)
+        return stress.under(u[view.space.dofs(stress.nodes)])
+    moved = u[view.space.dofs(np.array(node_of(output.node, view)))]
     return float(moved @ _along(output.along, view.model.components))
-
-
-def stress_at(output: Stress, view: HistoryView, u: Array, i: int) -> float:
-    """A stress under displacements (dofs,) at the temperatures of a point.
-
-    Parameters
-    ----------
-    output : the stress
-    view : the bodies
-    u : (dofs,)
-    i : number of the point
-    """
-    names = [body.name for body in view.model.bodies]
-    if output.body not in names:
-        raise InputError(one_of(output.body, names, "body"))
-    body, space = names.index(output.body), view.space
-    probe = StressProbe.at_nodes(space, view.model, np.array([[body, _node(output.node, view)]]))
-    deformed = DeformedBodies.of(space, view.model, space.at_nodes(u), view.points[i].load.factors)
-    return float(probe.stress(deformed)[0][0, COMPONENTS.index(output.component)])
-
-
-def _node(node: int, view: HistoryView) -> int:
-    count = view.model.mesh.number_of_nodes
-    if not 0 <= node < count:
-        raise InputError(f"is {node}; expected a node from 0 to {count - 1}", where=("node",))
-    return node
 
 
 def _along(given: tuple[float, ...], dimension: int) -> Array:

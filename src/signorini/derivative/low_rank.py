@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -18,6 +19,9 @@ from signorini.arrays import Array
 from signorini.derivative.adjoint_terms import Adjoint, PointTerm
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.derivative.points import TapePoint, factors_of, offsets_of
+from signorini.engine.examine import on_ranks
+from signorini.fem.node_work import node_work
+from signorini.fem.supports import Constraints
 from signorini.linalg.protocol import Reduced
 
 _RANK = 1e-13  # of the largest combination: one that does not matter
@@ -51,6 +55,13 @@ class Combination:
     def factor(self, name: str) -> Array:
         """(k,) Of a load."""
         return self.factors.get(name, np.zeros(len(self.one)))
+
+    def by_places(self) -> Any:
+        """(nodes d,) How ``sum w . K u`` changes with the place of every node, where displacements are."""
+        prepared = self.system.prepared
+        if on_ranks(prepared.K):
+            return prepared.K.by_places(node_work, (self.adjoint, self.displacement))
+        return node_work(prepared.space, prepared.model, self.adjoint, self.displacement).ravel()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -156,7 +167,8 @@ def combinations_of(points: Sequence[TapePoint], own: Sequence[int], adjoint: Ad
         motion, resultant, pulls = (part[..., begin : begin + _PAIRS] for part in first)
         h, r, known, offset = (part[..., begin : begin + _PAIRS] for part in second)
         factors = dict(zip(names, known[1:], strict=True))
-        pulling = sum((np.outer(adjoint.pulled[i], row) for i, row in zip(pulled, pulls, strict=True)), np.zeros(()))
+        own_pulls = [(adjoint.pulled[i], row) for i, row in zip(pulled, pulls, strict=True)]
+        pulling = sum((times(system.prepared.constraints, y, row) for y, row in own_pulls), np.zeros(()))
         w, u = _substituted(system, (motion, resultant, pulling), (h, r, offset), factors)
         yield Combination(
             system=system,
@@ -181,23 +193,40 @@ def columns_of(points: Sequence[TapePoint], own: Sequence[int], adjoint: Adjoint
     h, r, known, offset = (np.moveaxis(block, 0, -1) for block in blocks)
     motion, resultant = (np.moveaxis(block, 0, -1) for block in term_blocks(system, own, adjoint))
     factors = dict(zip(names, known[1:], strict=True))
-    still = np.zeros(system.prepared.constraints.transform.shape[1])
-    pulling = np.stack([adjoint.pulled.get(i, still) for i in own], axis=-1) if adjoint.pulled else np.zeros(())
+    constraints, pulling = system.prepared.constraints, np.zeros(())
+    if adjoint.pulled:
+        still = _still(constraints, 1)[:, 0]
+        pulling = constraints.beside([adjoint.pulled.get(i, still) for i in own])
     lacking = [k for k, point in enumerate(some) if point.displacement is None]
     states = h[..., lacking], r[..., lacking], offset[..., lacking]
     of_lacking = {name: factor[lacking] for name, factor in factors.items()}
     w, found = _substituted(system, (motion, resultant, pulling), states, of_lacking)
     substituted = iter(found.T)
-    u = [next(substituted) if point.displacement is None else point.displacement for point in some]
+    u = [next(substituted) if point.displacement is None else constraints.placed(point.displacement) for point in some]
     return Combination(
         system=system,
         adjoint=w,
-        displacement=np.stack(u, axis=-1),
+        displacement=constraints.beside(u),
         motion=motion,
         forces=r,
         one=known[0],
         factors=factors,
     )
+
+
+def times(constraints: Constraints, values: Any, factors: Array) -> Any:
+    """(n, k) Values (n,), of all or of the free displacements, times k factors, where vectors of these are.
+
+    Parameters
+    ----------
+    constraints, values, factors : know where displacements are, the values, and (k,)
+    """
+    return constraints.beside([factor * values for factor in factors])
+
+
+def _still(constraints: Constraints, k: int) -> Any:
+    """(z, k) No forces on the free displacements."""
+    return constraints.spread_free(np.zeros(0, dtype=np.int64), np.zeros((0, k)))
 
 
 def _largest(left: list[Array], right: list[Array]) -> tuple[list[Array], list[Array]]:
@@ -245,10 +274,10 @@ def _substituted(
     states, factors : (d, a, k) motions, forces and offsets, and (k,) by load
     """
     prepared, condensed, (motion, resultant, pulling), r = system.prepared, system.condensed, adjoint, states[1]
-    T, m, k = prepared.constraints.transform, motion.shape[-1], r.shape[-1]
+    constraints, m, k = prepared.constraints, motion.shape[-1], r.shape[-1]
     names = [name for name, factor in factors.items() if factor.any()]
     each = np.array([factors[name] for name in names]).reshape(len(names), k)
-    still, beyond = condensed.reduce(np.zeros((T.shape[1], m + k))), condensed.beyond_forces(*states)
+    still, beyond = condensed.reduce(_still(constraints, m + k)), condensed.beyond_forces(*states)
     load = still.load.copy()
     for name, factor in zip(names, each, strict=True):
         load[:, m:] += np.outer(system.unit(name).load, factor)
@@ -258,15 +287,15 @@ def _substituted(
         moved = still.expand(kept)
         moved[:, :m] += pulling
         for name, factor in zip(names, each, strict=True):
-            moved[:, m:] += np.outer(system.inside(name), factor)
+            moved[:, m:] += times(constraints, system.inside(name), factor)
         return moved
 
     def travel(moved: Array) -> Array:
         return np.concatenate([resultant, condensed.travel(beyond - moved[:, m:])], axis=1)
 
     forces = np.concatenate([motion.reshape(len(beyond), m), r.reshape(beyond.shape)], axis=1)
-    found = T @ condensed.response.displacement(Reduced(load, expand), forces, travel)
-    for name, factor in factors.items():
-        if name in prepared.constraints.prescribed:
-            found[:, m:] += np.outer(prepared.constraints.prescribed[name], factor)
-    return np.ascontiguousarray(found[:, :m]), np.ascontiguousarray(found[:, m:])
+    found = constraints.displaced(condensed.response.displacement(Reduced(load, expand), forces, travel))
+    for name, factor in zip(names, each, strict=True):
+        if name in constraints.prescribed:
+            found[:, m:] += times(constraints, constraints.prescribed[name], factor)
+    return found[:, :m], found[:, m:]

@@ -40,41 +40,61 @@ class NodeDifferences:
     near: sp.csr_array
     free: BoolArray
 
-    def gradient(self, numbers: Callable[[Space], Array]) -> Array:
-        """(nodes, d) Of the sum of numbers, which a function gives for nodes at other places."""
-        found, colours = np.zeros(self.free.shape), colours_of(self.near)
+    def gradient(self, numbers: Callable[[Space], Array]) -> tuple[IntArray, Array]:
+        """Nodes (m,) that any number lies near, and (m, d) of the sum of numbers by their places.
+
+        Parameters
+        ----------
+        numbers : gives them for nodes at other places
+        """
+        colours = colours_of(self.near)
+        moving = np.flatnonzero(colours >= 0)
+        found = np.zeros((len(moving), self.free.shape[1]))
         for colour in range(int(colours.max(initial=-1)) + 1):
             for axis in range(self.free.shape[1]):
-                own = np.flatnonzero((colours == colour) & self.free[:, axis])
+                own = np.flatnonzero((colours[moving] == colour) & self.free[moving, axis])
                 if len(own):
-                    self._add(found[:, axis], own, axis, numbers)
-        return found
+                    found[own, axis] += self._of(moving[own], axis, numbers)
+        return moving, found
 
-    def _add(self, found: Array, nodes: IntArray, axis: int, numbers: Callable[[Space], Array]) -> None:
-        """Add what a motion of nodes of one colour along an axis changes, node by node."""
-        step, motion = _STEP * float(extent(self.space.mesh.points).max()), np.zeros(self.free.shape)
-        motion[nodes, axis] = step
-        points, before = self.space.mesh.points, self.space.displacement
-        high, low = (numbers(self.space.at(points + way * motion, before)) for way in (1.0, -1.0))
+    def _of(self, nodes: IntArray, axis: int, numbers: Callable[[Space], Array]) -> Array:
+        """(k,) What a motion of nodes of one colour along an axis changes, node by node."""
+        step, motion = _STEP * float(extent(self.space.mesh.points).max()), np.zeros((len(nodes), self.free.shape[1]))
+        motion[:, axis] = step
+        high, low = (numbers(moved_nodes(self.space, nodes, way * motion)) for way in (1.0, -1.0))
         near, owner = sp.coo_array(self.near[:, nodes]), np.full(len(high), -1)
         owner[near.row] = near.col
         own = owner >= 0
-        np.add.at(found, nodes[owner[own]], (high - low)[own] / (2.0 * step))
+        found = np.zeros(len(nodes))
+        np.add.at(found, owner[own], (high - low)[own] / (2.0 * step))
+        return found
 
 
-def adds_up(space: Space, gradient: Array, motion: Array, numbers: Callable[[Space], Array]) -> bool:
-    """Whether the sum of numbers changes with a motion of all nodes as a gradient says, to both sides of it.
+def moved_nodes(space: Space, nodes: IntArray, by: Array) -> Space:
+    """Cells of which some nodes are elsewhere.
+
+    Parameters
+    ----------
+    space, nodes, by : the cells, (k,) nodes, and (k, d) how far away they are
+    """
+    points: Array = space.mesh.points.copy()
+    points[nodes] += by
+    return space.at(points, space.displacement)
+
+
+def adds_up(space: Space, nodes: IntArray, gradient: Array, motion: Array, numbers: Callable[[Space], Array]) -> bool:
+    """Whether the sum of numbers changes with a motion of nodes as a gradient says, to both sides of it.
 
     Parameters
     ----------
     space : the mesh
-    gradient : (nodes, d) of the sum of numbers
-    motion : (nodes, d) as long as facets are
+    nodes : (k,) that move
+    gradient : (k, d) of the sum of numbers
+    motion : (k, d) as long as facets are
     numbers : their values for nodes at other places
     """
-    points, before = space.mesh.points, space.displacement
     low, middle, half, high = (
-        numbers(space.at(points + part * _ALL_STEP * motion, before)) for part in (-1.0, 0.0, 0.5, 1.0)
+        numbers(moved_nodes(space, nodes, part * _ALL_STEP * motion)) for part in (-1.0, 0.0, 0.5, 1.0)
     )
     upwards, both = (4.0 * half - 3.0 * middle - high) / _ALL_STEP, (high - low) / (2.0 * _ALL_STEP)
     wanted, size = float(np.vdot(gradient, motion)), float(np.abs(both).sum())

@@ -69,8 +69,8 @@ class SideSums:
         """(rows, dofs) Of the displacements that pairs may see."""
         return selection(self._dofs, self.view.space.number_of_dofs)
 
-    def gradient(self, free: BoolArray) -> Array:
-        """(nodes, d) By the places of nodes, of which some coordinates are free (nodes, d).
+    def gradient(self, free: BoolArray) -> tuple[IntArray, Array]:
+        """Nodes (m,), and (m, d) by their places, of which some coordinates are free (nodes, d); of others it is zero.
 
         Raises
         ------
@@ -107,17 +107,18 @@ class SideSums:
                 gaps = found.gap - found.gap[least][found.contact]
             return np.concatenate([of_pairs + gap * gaps, common])
 
-        found = NodeDifferences(space=self.view.space, near=every, free=free).gradient(sums)
+        nodes, found = NodeDifferences(space=self.view.space, near=every, free=free).gradient(sums)
         if between_bodies(self.view.model):
-            self._check(found, free, sums)
-        return found
+            self._check(nodes, found, free, sums)
+        return nodes, found
 
-    def _check(self, found: Array, free: BoolArray, sums: Callable[[Space], Array]) -> None:
+    def _check(self, nodes: IntArray, found: Array, free: BoolArray, sums: Callable[[Space], Array]) -> None:
         """Motions of all nodes of both sides at once, by parts of the least facets there, are sums of those of each.
 
         Parameters
         ----------
-        found, free : (nodes, d) by the place of every node, and which coordinates may change
+        nodes, found : (m,) and (m, d) by their places
+        free : (nodes, d) which coordinates may change
         sums : numbers by places
 
         Raises
@@ -125,16 +126,24 @@ class SideSums:
         InputError
             Where that is not so.
         """
-        size = np.zeros(len(free))
+        size = np.zeros(len(nodes))
         for block in (block for side in self._boundaries for block in side.blocks):
-            size[block.facets] = block.lengths.min()
-        motion = np.where(free, np.random.default_rng(0).uniform(-1.0, 1.0, free.shape) * size[:, None], 0.0)
-        if not adds_up(self.view.space, found, motion, sums):
+            size[np.isin(nodes, block.facets)] = block.lengths.min()
+        way = np.random.default_rng(0).uniform(-1.0, 1.0, found.shape)
+        if not adds_up(self.view.space, nodes, found, np.where(free[nodes], size[:, None] * way, 0.0), sums):
             words = (
                 "nodes of a straight side opposite another meshed one, or at ends that are flush, change pairs alone"
             )
             words += " otherwise than together: derivatives by their places do not add up; "
             raise InputError(f"{words}shape(motion) knows what a motion of them does", where=("nodes",))
+
+    @property
+    def places(self) -> tuple[IntArray, Array]:
+        """Nodes (m,) of the pairs, and (m, d) what the output itself has of their places."""
+        nodes, pair = np.unique(self.view.interface.node, return_inverse=True)
+        found = np.zeros((len(nodes), self.view.space.dimension))
+        np.add.at(found, pair, self.shape.places)
+        return nodes, found
 
     @cached_property
     def _least(self) -> IntArray:

@@ -9,12 +9,13 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse as sp
 
-from signorini.arrays import Array
+from signorini.arrays import Array, distinct
 from signorini.derivative.adjoint_terms import BoundTerm
 from signorini.derivative.interface_system import InterfaceSystem
 from signorini.interface.interface import Interface
 from signorini.law.bound import FrictionBound
 from signorini.model.model import Model
+from signorini.sparse_rows import chosen_columns, seen_by
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -77,17 +78,21 @@ class PairChange:
         u, r : (dofs, k) displacements, (d a, k) forces
         one : (k,) how much of the gaps is in every column
         """
-        rows = system.condensed.active
-        moved = (self.B @ u)[np.tile(rows, system.directions)]
+        rows, moved = system.condensed.active, self.seen(system, u)
         moved[: system.pairs] += np.outer(self.gap[rows], one)
         return np.asarray(moved + self.compliance[:, rows].ravel()[:, None] * r)
+
+    def seen(self, system: InterfaceSystem, u: Array) -> Array:
+        """(d a, k) Motions ``B' u`` of the active pairs, of displacements (dofs, k)."""
+        return seen_by(self.B, u)[np.tile(system.condensed.active, system.directions)]
 
     def on_bodies(self, system: InterfaceSystem, r: Array) -> Array:
         """(dofs, k) Forces ``B'^T r`` of forces (d a, k) of the active pairs."""
         rows = np.tile(system.condensed.active, system.directions)
         whole = np.zeros((len(rows), r.shape[1]))
         whole[rows] = r
-        return np.asarray(self.B.T @ whole)
+        seen = distinct(self.B.indices)
+        return system.prepared.constraints.spread(seen, chosen_columns(self.B, seen).T @ whole)
 
     def bound(self, system: InterfaceSystem) -> BoundTerm | None:
         """What areas change of the friction of the active pairs; None where that does not ask for them."""

@@ -128,7 +128,7 @@ class ShapeSides:
     def _side(self, part: float) -> BodySide:
         """The bodies a part of the step away, kept."""
         if part not in self._sides:
-            self._sides[part] = moved_side(self.prepared, part * self._step * self.motion)
+            self._sides[part] = moved_side(self.prepared, self.motion, part * self._step)
         return self._sides[part]
 
     @cached_property

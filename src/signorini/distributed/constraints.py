@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -80,8 +80,12 @@ class ConstraintsOnRanks(Constraints):
         return self.remembered.of(self.rows.stiffness.vectors, values)
 
     def spread(self, dofs: IntArray, values: Array) -> Any:
-        """(dofs,) Values at some dofs (k,), zero elsewhere, on the ranks."""
-        return self.rows.stiffness.vectors.spread(dofs, values)
+        """(dofs, ...) Values (k, ...) at some dofs (k,), zero elsewhere, on the ranks."""
+        return ColumnsOnRanks.spread(self.rows.stiffness.vectors, dofs, values)
+
+    def beside(self, columns: Sequence[Any]) -> Any:
+        """(n, k) Arrays side by side that are on the ranks."""
+        return ColumnsOnRanks(columns[0].cut, columns)
 
     @property
     def alone(self) -> Any:
@@ -99,13 +103,17 @@ class ConstraintsOnRanks(Constraints):
         return transposed(self.transform)
 
     def displaced(self, free: Any) -> Any:
-        """(dofs,) Displacements by free ones (z,) alone."""
+        """(dofs,) Displacements by free ones (z,) alone; of several (z, k) at once (dofs, k)."""
+        if isinstance(free, ColumnsOnRanks):
+            return free.mapped(self.rows.stiffness.vectors, self.displaced)
         if not isinstance(free, ArrayOnRanks):
             return super().displaced(free)
         return self.rows.stiffness.vectors.made(_displaced, self.rows.unknowns.of(free), self.moved.number)
 
     def on_free(self, forces: Any) -> Any:
-        """(z,) What forces (dofs,) are on the free displacements."""
+        """(z,) What forces (dofs,) are on the free displacements; of several (dofs, k) at once (z, k)."""
+        if isinstance(forces, ColumnsOnRanks):
+            return forces.mapped(self.rows.unknowns, self.on_free)
         if not isinstance(forces, ArrayOnRanks):
             return super().on_free(forces)
         return self.rows.unknowns.made(_on_free, self.rows.stiffness.vectors.of(forces), self.moved.number)
@@ -126,8 +134,8 @@ class ConstraintsOnRanks(Constraints):
         return sp.csr_array(chosen_columns(rows, seen) @ transform)
 
     def spread_free(self, free: IntArray, values: Array) -> Any:
-        """(z,) Values at some free displacements (k,), zero elsewhere, on the ranks."""
-        return self.rows.unknowns.spread(free, values)
+        """(z, ...) Values (k, ...) at some free displacements (k,), zero elsewhere, on the ranks."""
+        return ColumnsOnRanks.spread(self.rows.unknowns, free, values)
 
     def carried(self, rigid: Motions, by: Array) -> Any:
         """(dofs,) Displacements by combinations (k,) of the rigid motions that ranks know, there."""

@@ -270,8 +270,10 @@ class FactorsHeld:
 
         Parameters
         ----------
-        f : the forces, here, or (z,) on the ranks, where displacements are then
+        f : the forces, here, or on the ranks, where displacements are then
         """
+        if isinstance(f, ColumnsOnRanks):
+            return f.mapped(self.matrix.on_ranks.unknowns, self.solved)
         if isinstance(f, ArrayOnRanks):
             unknowns, bodies = self.matrix.on_ranks.unknowns, self.matrix.on_ranks.number
             there = unknowns.made(solved_there, np.where(self.inside, f, 0.0), bodies, self._number)
@@ -324,9 +326,9 @@ class FactorsOnRanks:
     def reduce(self, f: Any) -> Reduced:
         """Eliminate the interior of a load f, (n,) or (n, k), by one solve; to expand takes another.
 
-        One of the free displacements alone (z,) may be on the ranks, and so is then what is expanded.
+        That on the free displacements alone, (z,) or (z, k), may be on the ranks, and so is then what is expanded.
         """
-        if isinstance(f, ArrayOnRanks):
+        if isinstance(f, ArrayOnRanks | ColumnsOnRanks):
             return self._reduced_there(f)
         z, load = len(self.held.inside), as_columns(f, self.n)
         u = self.held.solved(load[:z])
@@ -345,13 +347,13 @@ class FactorsOnRanks:
         seen = distinct(self.coupling.indices)
         return seen, chosen_columns(self.coupling, seen)
 
-    def _reduced_there(self, f: ArrayOnRanks) -> Reduced:
+    def _reduced_there(self, f: ArrayOnRanks | ColumnsOnRanks) -> Reduced:
         """A load on the ranks: what the interface feels and holds comes here, and goes there, and nothing else."""
         unknowns, (seen, coupling), edge = self.held.matrix.on_ranks.unknowns, self._near, self.held.edge
-        u = self.held.solved(unknowns.of(f))
+        u = self.held.solved(f if isinstance(f, ColumnsOnRanks) else unknowns.of(f))
 
         def expand(kept: Array) -> Any:
-            inner = u - self.held.solved(unknowns.spread(seen, coupling.T @ kept))
-            return inner + unknowns.spread(edge, kept) if len(edge) else inner
+            inner = u - self.held.solved(ColumnsOnRanks.spread(unknowns, seen, coupling.T @ kept))
+            return inner + ColumnsOnRanks.spread(unknowns, edge, kept) if len(edge) else inner
 
         return Reduced((f[edge] if len(edge) else 0.0) - coupling @ u[seen], expand)

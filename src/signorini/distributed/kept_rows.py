@@ -99,6 +99,11 @@ class RowsKept:
         return result
 
     @property
+    def home(self) -> bool:
+        """Whether the ranks were let go."""
+        return self._home is not None
+
+    @property
     def place(self) -> tuple[int, IntArray]:
         """Where ranks find the rows that others keep, see `rows_of_all`."""
         return self._number, self._ends

@@ -7,7 +7,7 @@ They have the bits of the rows that one process would make.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +21,7 @@ from signorini.fem.space import Space, make_space
 from signorini.fem.stiffness import stiffness
 from signorini.fem.supports import Constraints
 from signorini.model.body import Body
+from signorini.model.kind import axes
 from signorini.model.mesh import Mesh
 from signorini.model.model import Model
 
@@ -73,15 +74,29 @@ class Piece(PartOfBodies):
     own: BoolArray
     springs: sp.csr_array
 
+    def made(self, work: Callable[..., Any], *given: Any) -> Any:
+        """What a function makes of the space of these cells and a model of them, ``work(space, model, *given)``.
+
+        Parameters
+        ----------
+        work, given : the function, and what else it is given
+        """
+        model = self.model()
+        return work(make_space(model.mesh, kind=self.kind), model, *given)
+
     def assembled(self) -> OwnStiffness:
         """The stiffness of the piece, by the kernel that assembles whole meshes."""
-        model = self.model()
-        K = stiffness(make_space(model.mesh, kind=self.kind), model)
+        K = self.made(stiffness)
         if self.springs.nnz:
             K = sp.csr_array(K + self.springs)
         else:
             K.eliminate_zeros()  # as the sum does, which takes the memory of two
-        return OwnStiffness(K=K, own=np.repeat(self.own, model.components))
+        return OwnStiffness(K=K, own=self.own_dofs)
+
+    @property
+    def own_dofs(self) -> BoolArray:
+        """(p,) Dofs of own nodes."""
+        return np.repeat(self.own, len(axes(self.kind)))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -8,14 +8,14 @@ and sums go to the first rank alone, added in the order of the ranks.
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from signorini.arrays import Array, IntArray, frozen, index_type
-from signorini.distributed.kept_rows import RowsKept, give, keep
+from signorini.distributed.kept_rows import RowsKept, give, keep, rows_of_all
 from signorini.distributed.ranks import Team
 
 
@@ -57,6 +57,8 @@ class Cut:
             if values.cut is self and not values.home:
                 return values
             values = values.whole()
+        if isinstance(values, RowsKept) and not values.home and values.shape == (self.size,):
+            return self.made(_kept_by_rows, self.number, *values.place, dtype=values.dtype)
         found = ArrayOnRanks(self, values.dtype)
         self.team.everywhere(keep, found.number, pieces=(values[own] for own in self.entries()))
         return found
@@ -84,18 +86,41 @@ class Cut:
         dtype : of what it makes
         """
         found = ArrayOnRanks(self, dtype)
-        self.team.soon(_made, found.number, work, tuple(_reference(each) for each in given))
+        self.team.soon(_made, found.number, work, references(given))
         return found
 
 
 class _There(NamedTuple):
-    """In place of an array on ranks: its number."""
+    """In place of what is on ranks: its number."""
 
     number: int
 
 
-def _reference(value: Any) -> Any:
-    return _There(value.number) if isinstance(value, ArrayOnRanks) else value
+class KeptThere:
+    """Something that ranks keep, each its part, until nobody has this any more.
+
+    Attributes
+    ----------
+    number : under which they do
+
+    Parameters
+    ----------
+    team, parts : the ranks, and an array for each of them
+    """
+
+    def __init__(self, team: Team, parts: Iterable[Array]) -> None:
+        self.number = team.kept(self)
+        team.everywhere(keep, self.number, pieces=parts)
+
+
+def references(given: Sequence[Any]) -> tuple[Any, ...]:
+    """What ranks are given in place of what they have: its numbers."""
+    return tuple(_There(each.number) if isinstance(each, ArrayOnRanks | KeptThere) else each for each in given)
+
+
+def found_there(team: Team, given: Sequence[Any]) -> tuple[Any, ...]:
+    """What this rank has by the `references` that it was given."""
+    return tuple(team.held[each.number] if isinstance(each, _There) else each for each in given)
 
 
 class ArrayOnRanks(NDArrayOperatorsMixin):
@@ -278,12 +303,16 @@ def _type_of(work: Callable[..., Any], given: Sequence[Any]) -> Any:
 
 def _made(team: Team, number: int, work: Callable[..., Any], given: tuple[Any, ...]) -> None:
     """Make entries of this rank, and keep them."""
-    team.held[number] = work(team, *(team.held[each.number] if isinstance(each, _There) else each for each in given))
+    team.held[number] = work(team, *found_there(team, given))
 
 
 def _entrywise(team: Team, work: Callable[..., Any], *given: Any) -> Any:
     del team
     return work(*given)
+
+
+def _kept_by_rows(team: Team, entries: int, number: int, ends: IntArray) -> Array:
+    return rows_of_all(team, number, ends, team.held[entries])
 
 
 def _zeros(team: Team, entries: int) -> Array:

@@ -3,16 +3,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
+from itertools import accumulate, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from signorini.arrays import Array, BoolArray, Int32Array, IntArray
 from signorini.distributed.borders import hold_border
+from signorini.distributed.columns import ColumnsOnRanks
 from signorini.distributed.partition import owners
-from signorini.distributed.pieces import Piece, pieces, whole_nodes
-from signorini.distributed.rank_arrays import ArrayOnRanks, Cut
+from signorini.distributed.pieces import OwnStiffness, Piece, pieces, whole_nodes
+from signorini.distributed.rank_arrays import ArrayOnRanks, Cut, KeptThere, found_there, references
 from signorini.distributed.ranks import Team
 from signorini.fem.space import Space
 from signorini.fem.supports import Constraints
@@ -36,15 +39,25 @@ class StiffnessOnRanks:
     team : the ranks
     space, model, constraints : of the bodies
     interface : the pairs, which weigh in the cut
+    cells : whether ranks keep the cells of their pieces, for what derivatives make of them
     """
 
-    def __init__(self, team: Team, space: Space, model: Model, constraints: Constraints, interface: Interface) -> None:
+    def __init__(
+        self,
+        team: Team,
+        space: Space,
+        model: Model,
+        constraints: Constraints,
+        interface: Interface,
+        *,
+        cells: bool = False,
+    ) -> None:
         self.team, self.number = team, team.kept(self)
+        self._cells = team.kept(self) if cells else None
         self._d, self._space, self._model = space.components, space, model
         self.shape = (space.number_of_dofs, space.number_of_dofs)
         self.owner = team.owners[space.mesh] = owners(space, interface.B, team.size)
         self._vectors: Cut | None = None
-        self._borders = team.kept(self)
         self.cut(constraints)
 
     def cut(self, constraints: Constraints) -> None:
@@ -57,7 +70,7 @@ class StiffnessOnRanks:
         self._whole = self._asked(constraints)
         self._nodes: list[Int32Array] = []
         self._own: list[BoolArray] = []
-        found = self.team.everywhere(_hold_piece, self.number, pieces=self._pieces(constraints))
+        found = self.team.everywhere(_hold_piece, self.number, self._cells, pieces=self._pieces(constraints))
         self.nnz = sum(found)
         if self._vectors is not None:
             self._hold_borders()
@@ -85,6 +98,7 @@ class StiffnessOnRanks:
 
     def _hold_borders(self) -> None:
         """Have ranks know whose displacements they need beside their own."""
+        self._borders = self.team.kept(self)  # matrices of pieces before have theirs
         place = np.empty(len(self.owner), np.int32)
         place[np.argsort(self.owner, kind="stable")] = np.arange(len(place), dtype=np.int32)
         given = self._d, self.number, self._borders
@@ -130,15 +144,97 @@ class StiffnessOnRanks:
         """|K|, by whose product with |u| rounding is told."""
         return _SizesOnRanks(self)
 
-    def forces(self, u: Any, how: str) -> Any:
-        """(dofs,) Forces of displacements u, (dofs,), see `OwnStiffness.forces`; where u is, here or on the ranks."""
+    def of_pieces(self, work: Callable[..., Any], *given: Any) -> MatrixOfPieces:
+        """A matrix (dofs, dofs) that every rank makes of the cells of its piece, to be multiplied with.
+
+        Parameters
+        ----------
+        work, given : ``work(space, model, *given)``, a function of a module that gives (p, p) of the dofs of the piece
+        """
+        return MatrixOfPieces(self, work, given)
+
+    def at_pieces(self, values: Array) -> KeptThere:
+        """Values (nodes, ...) at the nodes of every piece, to be given to what ranks make of the pieces."""
+        return KeptThere(self.team, (values[nodes] for nodes in self._nodes))
+
+    def hold_matrix(self, number: int, work: Callable[..., Any], given: tuple[Any, ...]) -> tuple[int, int]:
+        """Have ranks keep a matrix, see `of_pieces`; the numbers under which they do, and of its borders.
+
+        Parameters
+        ----------
+        number, work, given : under which they do, and what they make it of
+        """
+        assert self.vectors.size
+        self.team.soon(_hold_matrix, number, self._cells, work, references(given))
+        return number, self._borders
+
+    def vector_of_pieces(self, work: Callable[..., Any], *given: Any) -> ArrayOnRanks:
+        """(dofs,) What every rank makes of the cells of its piece, on the ranks.
+
+        Parameters
+        ----------
+        work, given : ``work(space, model, *given)``, a function of a module that gives (p,) of the dofs of the piece
+        """
+        return self.vectors.made(_vector_there, self.vectors.number, self._cells, work, *given)
+
+    @cached_property
+    def places(self) -> Cut:
+        """The coordinates of the own nodes of every rank, (nodes d,) in all."""
+        d, owner = self._space.dimension, self.owner
+
+        def entries_of(rank: int) -> IntArray:
+            return (d * np.flatnonzero(owner == rank)[:, None] + np.arange(d)).ravel()
+
+        return Cut(self.team, d * len(owner), lambda places: owner[places // d], entries_of)
+
+    def by_places(self, work: Callable[..., Any], tables: Sequence[ColumnsOnRanks], *given: Any) -> ArrayOnRanks:
+        """(nodes d,) What every rank makes of the cells of its piece by the places of its own nodes, on the ranks.
+
+        Parameters
+        ----------
+        work, given : ``work(space, model, *tables, *given)`` gives (nodes, d) of the piece
+        tables : displacements (dofs, k), of which it is given those of the piece
+        """
+        vectors = self.vectors  # whose borders are known then
+        columns = [vectors.of(column) for table in tables for column in table.T]
+        counts = [table.shape[1] for table in tables]
+        return self.places.made(_by_places_there, self._cells, self._borders, work, counts, *columns, *given)
+
+    def forces(self, u: Any, how: str, matrix: tuple[int, int] | None = None) -> Any:
+        """(dofs,) Forces of displacements u, (dofs,), see `OwnStiffness.forces`; where u is, here or on the ranks.
+
+        Parameters
+        ----------
+        u : the displacements; on the ranks several at once, (dofs, k)
+        how : see `OwnStiffness.forces`
+        matrix : numbers under which ranks hold another one, for displacements there, and borders; None: the stiffness
+        """
+        if isinstance(u, ColumnsOnRanks):
+            return u.mapped(self.vectors, lambda each: self.forces(each, how, matrix))
         if isinstance(u, ArrayOnRanks):
-            return self.vectors.made(_forces_there, self.vectors.of(u), self.number, self._borders, how)
+            there = self.vectors.of(u)  # borders are known then
+            return self.vectors.made(_forces_there, there, *(matrix or (self.number, self._borders)), how)
         result = np.zeros(self.shape[0])
         found = self.team.everywhere(_forces, self.number, how, pieces=(u[dofs] for dofs in self.dofs))
         for nodes, own, forces in zip(self._nodes, self._own, found, strict=True):
             result[self._dofs(nodes[own])] = forces
         return result
+
+
+class MatrixOfPieces:
+    """A matrix (dofs, dofs) of which every rank has made the rows of its own nodes, of the cells of its piece.
+
+    Parameters
+    ----------
+    K, work, given : see `StiffnessOnRanks.of_pieces`
+    """
+
+    def __init__(self, K: StiffnessOnRanks, work: Callable[..., Any], given: tuple[Any, ...]) -> None:
+        self._stiffness, self._held = K, K.hold_matrix(K.team.kept(self), work, given)
+
+    def __matmul__(self, u: Any) -> Any:
+        """Products with displacements (dofs,) or (dofs, k), on the ranks."""
+        return self._stiffness.forces(u, "plain", self._held)
 
 
 class _SizesOnRanks(NamedTuple):
@@ -148,10 +244,37 @@ class _SizesOnRanks(NamedTuple):
         return self.K.forces(u, "sizes")
 
 
-def _hold_piece(team: Team, piece: Piece, number: int) -> int:
-    """Assemble a piece and keep it; the entries of the rows that are this rank's own."""
+def _hold_piece(team: Team, piece: Piece, number: int, cells: int | None) -> int:
+    """Assemble a piece and keep it, with its cells where that is asked; the entries of the rows that are own ones."""
+    if cells is not None:
+        team.held[cells] = piece
     held = team.held[number] = piece.assembled()
     return int(np.diff(held.K.indptr)[held.own].sum())
+
+
+def _hold_matrix(team: Team, number: int, cells: int, work: Callable[..., Any], given: tuple[Any, ...]) -> None:
+    piece: Piece = team.held[cells]
+    team.held[number] = OwnStiffness(K=piece.made(work, *found_there(team, given)), own=piece.own_dofs)
+
+
+def _vector_there(team: Team, entries: int, cells: int, work: Callable[..., Any], *given: Any) -> Array:
+    """On the displacements of this rank; nothing of the cells is on obstacles, which are behind them."""
+    piece: Piece = team.held[cells]
+    found = piece.made(work, *given)[piece.own_dofs]
+    return np.concatenate([found, np.zeros(len(team.held[entries]) - len(found))])
+
+
+def _by_places_there(
+    team: Team, cells: int, borders: int, work: Callable[..., Any], counts: list[int], *given: Any
+) -> Array:
+    """By the places of own nodes, in whose cells others are too."""
+    piece: Piece = team.held[cells]
+    ends = [0, *accumulate(counts)]
+    columns = [team.held[borders].with_others(each) for each in given[: ends[-1]]]
+    none = np.zeros((len(piece.own_dofs), 0))
+    tables = [np.stack(columns[a:b], axis=1) if b > a else none for a, b in pairwise(ends)]
+    found: Array = piece.made(work, *tables, *given[ends[-1] :])[piece.own]
+    return found.ravel()
 
 
 def _forces(team: Team, u: Array, number: int, how: str) -> Array:

@@ -75,7 +75,8 @@ def stiffness_on_ranks(examined: Examined, backend: str) -> tuple[StiffnessOnRan
     share = _LEAST[way] * likely_entries(examined.model) / team.size
     team.everywhere(room_for, share)[0].refuse(f"back end '{way}', for {examined.model.number_of_dofs} unknowns,")
     space, model, constraints = examined.space, examined.model, examined.constraints
-    return StiffnessOnRanks(team, space, model, constraints, examined.interface), way
+    cells = way == MUMPS  # of which derivatives are asked; little beside the factor
+    return StiffnessOnRanks(team, space, model, constraints, examined.interface, cells=cells), way
 
 
 def kept_on_ranks(examined: Examined, K: StiffnessOnRanks, known: Condensed | None = None) -> Examined:

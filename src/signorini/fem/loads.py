@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from signorini.arrays import Array, IntArray, distinct, stored
+from signorini.arrays import Array, IntArray, distinct, padded, stored
 from signorini.errors import InputError, Where
 from signorini.fem.boundary import Boundary, boundary
 from signorini.fem.jacobian import cell_determinants
@@ -55,14 +55,29 @@ def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
         return thermal_forces(space, model, load)
     if load.kind in BODY_LOADS:
         return _body_forces(space, model, load)
+    forces = np.zeros((space.mesh.number_of_nodes, space.components))
+    nodes, given = forces_at(space, model, load, where)
+    forces[nodes] = given
+    return forces.ravel()
+
+
+def forces_at(space: Space, model: Model, load: Load, where: Where) -> tuple[IntArray, Array]:
+    """Nodes (k,) of a boundary or set of nodes that a load is on, each once, and its forces (k, c) there at factor 1.
+
+    Parameters
+    ----------
+    space, model : of the bodies
+    load : neither a temperature nor one on all of a body
+    where : what errors call it
+    """
     if load.torque is not None:
         return _torque(space, model, load, where)
-    forces = np.zeros((len(space.mesh.points), space.components))
     if load.nodal_forces is not None or (load.force is not None and load.on not in space.mesh.boundaries):
         nodes = nodes_at(space, load.on, (*where, "on"), completed=load.force is not None)
-        forces[nodes] = _given(load.force) / len(nodes) if load.force is not None else load.nodal_forces
+        forces = np.zeros((len(nodes), space.components))
+        forces[:] = _given(load.force) / len(nodes) if load.force is not None else load.nodal_forces
         _check_axis(model, nodes, forces, where)
-        return forces.ravel()
+        return nodes, forces
     side = boundary(space, str(load.on), (*where, "on"))
     if load.pressure is not None:
         pressures = on_facets(load.pressure, space, side, (*where, "pressure"))
@@ -80,13 +95,11 @@ def _on_mesh(space: Space, model: Model, load: Load, where: Where) -> Array:
             tractions = _tractions(space, load, side, (*where, "traction"))
         parts = [area * traction for area, traction in zip(areas, tractions, strict=True)]
     nodal = side.nodal(parts)
-    forces[side.nodes, : nodal.shape[1]] = nodal
-    return forces.ravel()
+    return side.nodes, padded(nodal, space.components)
 
 
-def _torque(space: Space, model: Model, load: Load, where: Where) -> Array:
+def _torque(space: Space, model: Model, load: Load, where: Where) -> tuple[IntArray, Array]:
     """Forces along the hoop that grow with the radius: tractions on a boundary, forces on the nodes of a set."""
-    forces = np.zeros((len(space.mesh.points), space.components))
     if load.on in space.mesh.boundaries:
         side = boundary(space, str(load.on), (*where, "on"))
         arms = [facet_areas(model, block) * block.at[..., 0] for block in side.blocks]
@@ -99,8 +112,9 @@ def _torque(space: Space, model: Model, load: Load, where: Where) -> Array:
     if not lever > 0.0:
         raise InputError("acts on the axis; expected a place with a radius", where=(*where, "torque"))
     assert load.torque is not None
-    forces[nodes, 2] = load.torque / lever * shares
-    return forces.ravel()
+    forces = np.zeros((len(nodes), space.components))
+    forces[:, 2] = load.torque / lever * shares
+    return nodes, forces
 
 
 def _tractions(space: Space, load: Load, side: Boundary, where: Where) -> list[Array]:
@@ -152,10 +166,10 @@ def _check_axis(model: Model, nodes: IntArray, forces: Array, where: Where) -> N
     if not model.axisymmetric:
         return
     radii = model.mesh.points[:, 0]
-    wrong = nodes[(radii[nodes] <= ON_AXIS * radii.max()) & (forces[nodes, ::2] != 0.0).any(axis=1)]
+    wrong = np.flatnonzero((radii[nodes] <= ON_AXIS * radii.max()) & (forces[:, ::2] != 0.0).any(axis=1))
     if len(wrong):
         kind = "radial" if forces[wrong[0], 0] else "hoop"
-        raise InputError(f"has a {kind} component at node {wrong[0] + 1}, which is on the axis", where=where)
+        raise InputError(f"has a {kind} component at node {nodes[wrong[0]] + 1}, which is on the axis", where=where)
 
 
 def _given(force: tuple[float | None, ...]) -> Array:

@@ -63,6 +63,19 @@ def add_node_work(found: Array, space: Space, model: Model, products: Products) 
             _add(found, space.mesh.points, of_cells, at_points, of_law, products, (c, law.shape[2]))
 
 
+def node_work(space: Space, model: Model, w: Array, u: Array) -> Array:
+    """(nodes, d) ``d(sum_k w_k . K u_k) / dx``, of displacements w and u (dofs, k).
+
+    Parameters
+    ----------
+    space, model : the mesh and what is on it
+    w, u : displacements
+    """
+    found = np.zeros_like(space.mesh.points)
+    add_node_work(found, space, model, Products.of(w, u))
+    return found
+
+
 def _by_differences(space: Space, model: Model, group: Group, products: Products) -> Array:
     """(m, k, d) Of the nodes of the cells of a group, each cell on nodes of its own."""
     block, d = group.block, space.dimension

@@ -76,13 +76,17 @@ class Constraints:
         return values
 
     def spread(self, dofs: IntArray, values: Array) -> Array:
-        """(dofs,) Values at some dofs (k,), each once, zero elsewhere, where vectors of all displacements are."""
-        result = self.zeros
+        """(dofs, ...) Values at some dofs (k,), each once, zero elsewhere, where vectors of all displacements are."""
+        result = np.zeros((len(self.free), *values.shape[1:]))
         result[dofs] = values
         return result
 
+    def beside(self, columns: Sequence[Array]) -> Array:
+        """(n, k) Values (n,) of all dofs, or of the free displacements, side by side; at least one."""
+        return np.stack(columns, axis=-1)
+
     def displaced(self, free: Array) -> Array:
-        """(dofs,) Displacements by free ones (z,) alone, ``T z``."""
+        """(dofs,) Displacements by free ones (z,) alone, ``T z``; of several (z, k) at once (dofs, k)."""
         found: Array = self.transform @ free
         return found
 
@@ -91,8 +95,8 @@ class Constraints:
         return displacement[self.leaders]
 
     def spread_free(self, free: IntArray, values: Array) -> Array:
-        """(z,) Values at some free displacements (k,), each once, zero elsewhere, where vectors of all of them are."""
-        result = np.zeros(self.transform.shape[1])
+        """(z, ...) Values at some free displacements (k,), each once, zero elsewhere, where vectors of these are."""
+        result = np.zeros((self.transform.shape[1], *values.shape[1:]))
         result[free] = values
         return result
 
@@ -112,7 +116,7 @@ class Constraints:
         return found
 
     def on_free(self, forces: Array) -> Array:
-        """(z,) What forces (dofs,) are on the free displacements, ``T^T f``."""
+        """(z,) What forces (dofs,) are on the free displacements, ``T^T f``; of several (dofs, k) at once (z, k)."""
         found: Array = self._transposed @ forces
         return found
 

@@ -260,7 +260,7 @@ class Model(Drawable):
             )
         if load.kind == "temperature" and not body.material.feels_heat:
             raise InputError(f"'{body.name}' has no thermal expansion; expected it in its material", where=("load", i))
-        count = len(self.mesh.points)
+        count = self.mesh.number_of_nodes
         if isinstance(load.temperature, np.ndarray) and len(load.temperature) != count:
             raise InputError(
                 f"has {len(load.temperature)} values; expected one per node of the mesh, {count}",
