@@ -55,6 +55,17 @@ def test_smith_watson_topper_of_a_shaft():
     assert abs(found.plane[0, 0]) == pytest.approx(abs(found.plane[0, 1]), rel=1e-6)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_smith_watson_topper_of_a_sheet_that_is_pulled_nearly_alike_in_all_directions(seed):
+    """Planes across the sheet have nearly the same parameter: a ridge that steps in eight directions creep along."""
+    axes = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    most, least = 100.0, 100.0 * (1.0 - 1e-5)
+    tensor = axes @ np.diag([most, least, 0.0]) @ axes.T
+    stress = tensor[[0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]]
+    found = of(sg.fatigue.SWT(), stress, -stress)
+    assert found.parameter[0] == pytest.approx(most * (most - NU * least) / E, rel=5e-9)
+
+
 def test_fatemi_socie_of_a_bar():
     """``sin(2 a) (1 + nu) s / E (1 + k s (1 + cos(2 a)) / (2 Y))`` over all angles a."""
     size = 200.0

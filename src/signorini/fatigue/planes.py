@@ -72,8 +72,12 @@ def critical_planes(stress: Array, strain: Array, grid: Array, shear: bool, slop
 
 @part()
 def _steepest(start: Array, stress: Array, strain: Array, shear: bool, slope: float) -> Array:
-    """The plane of the maximum near one, by steps along eight directions that halve where none of them leads up."""
-    normal, step = start.copy(), 0.5 * _SPACING
+    """The plane of the maximum near one, by steps along eight directions that halve where none of them leads up.
+
+    Where a parameter is nearly the same along a circle of planes, eight directions follow its ridge by small steps alone:
+    from the last two steps on it is followed by ones that double (pattern moves of Hooke and Jeeves, 1961).
+    """
+    normal, before, step = start.copy(), start.copy(), 0.5 * _SPACING
     value = _on_plane(normal, stress, strain, shear, slope)[0]
     while step > _FINEST:
         one, other = _tangents(normal)
@@ -85,10 +89,16 @@ def _steepest(start: Array, stress: Array, strain: Array, shear: bool, slope: fl
             here = _on_plane(trial, stress, strain, shear, slope)[0]
             if here > (1.0 + _BETTER) * next_value:
                 next_normal, next_value = trial, here
-        if next_value > value:
-            normal, value = next_normal, next_value
-        else:
+        if not next_value > value:
             step *= 0.5
+            continue
+        ahead, before = next_normal - before, normal
+        while next_value > (1.0 + _BETTER) * value:
+            normal, value = next_normal, next_value
+            next_normal = normal + ahead
+            next_normal /= np.sqrt((next_normal * next_normal).sum())
+            next_value = _on_plane(next_normal, stress, strain, shear, slope)[0]
+            ahead *= 2.0
     return normal
 
 
