@@ -32,8 +32,8 @@ from signorini.linalg.plan import RELAX, Fronts
 from signorini.model.model import Model
 
 INTERPRETED_NODES = 4000
-"""Nodes of the largest plane model whose loops are interpreted, three seconds; to compile them takes ten."""
-FIRST_SOLVE = "first solve on this machine: compiling takes ten seconds, once"
+"""Nodes of the largest plane model whose loops are interpreted, three seconds; to compile them takes half a minute."""
+FIRST_SOLVE = "first solve on this machine: compiling takes half a minute, once"
 
 
 def compiled() -> bool:
