@@ -74,8 +74,8 @@ def critical_planes(stress: Array, strain: Array, grid: Array, shear: bool, slop
 def _steepest(start: Array, stress: Array, strain: Array, shear: bool, slope: float) -> Array:
     """The plane of the maximum near one, by steps along eight directions that halve where none of them leads up.
 
-    Where a parameter is nearly the same along a circle of planes, eight directions follow its ridge by small steps alone:
-    from the last two steps on it is followed by ones that double (pattern moves of Hooke and Jeeves, 1961).
+    Where a parameter is nearly the same along a circle of planes, eight directions follow its ridge by small steps
+    alone: from the last two steps on it is followed by ones that double (pattern moves of Hooke and Jeeves, 1961).
     """
     normal, before, step = start.copy(), start.copy(), 0.5 * _SPACING
     value = _on_plane(normal, stress, strain, shear, slope)[0]
