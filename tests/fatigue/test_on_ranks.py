@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.distributed import ranks
 from signorini.distributed.partition import owners
-from signorini.engine import fatigue_on_ranks
 from signorini.engine.examine import examine
 from signorini.engine.fatigue import assess_fatigue
 from signorini.fem.stress import space_of
@@ -43,7 +43,7 @@ def test_ranks_say_what_one_process_says(made, asked, monkeypatch):
     model, team = history.model, RanksInTurn(5)
     found = assess_fatigue(history, asked, lambda: space_of(model))
     team.owners[model.mesh] = owners(space_of(model), examine(model).interface.B, team.size)
-    monkeypatch.setattr(fatigue_on_ranks, "several_ranks", lambda: team)
+    monkeypatch.setattr(ranks, "several_ranks", lambda: team)
     history = replace(history, backend="petsc")
     there = assess_fatigue(history, asked, lambda: pytest.fail("all cells were looked at"))
     assert (there.moments, there.steps, there.exact) == (found.moments, found.steps, found.exact)

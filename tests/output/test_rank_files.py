@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import signorini as sg
+from signorini.distributed import ranks as all_ranks
 from signorini.distributed.partition import owners
 from signorini.engine.examine import examine
 from signorini.gallery.sectors import SECTORS, ring_on_pads
@@ -33,7 +34,7 @@ def solved(name, team, monkeypatch, model=None):
     """A history whose mesh is cut among ranks, as if they had solved it."""
     model = in_increments(MODELS[name]() if model is None else model)
     examined = examine(model)
-    monkeypatch.setattr(module, "several_ranks", lambda: team)
+    monkeypatch.setattr(all_ranks, "several_ranks", lambda: team)
     history = replace(sg.solve(model, backend="multifrontal"), backend="petsc")
     team.owners[history.model.mesh] = owners(examined.space, examined.interface.B, team.size)
     return history
@@ -196,5 +197,5 @@ def test_one_process_writes_where_ranks_do_not(monkeypatch):
     history = solved("several steps", team, monkeypatch)
     team.owners.clear()
     assert fields_on_ranks(history) is None
-    monkeypatch.setattr(module, "several_ranks", lambda: None)
+    monkeypatch.setattr(all_ranks, "several_ranks", lambda: None)
     assert fields_on_ranks(history) is None

@@ -275,6 +275,18 @@ def several_ranks() -> Team | None:
     return team if team is not None and team.together and team.size > 1 else None
 
 
+def ranks_with(mesh: Any) -> tuple[Team, Any] | None:
+    """The ranks among which bodies on a mesh were cut, and (n,) which of them has every node; None where none have.
+
+    Parameters
+    ----------
+    mesh : of the bodies
+    """
+    team = several_ranks()
+    owner = None if team is None else team.owners.get(mesh)
+    return None if team is None or owner is None else (team, owner)
+
+
 def lend(mesh: Any) -> None:
     """Let ranks have a mesh of which nobody but this run asks anything, once it was cut.
 

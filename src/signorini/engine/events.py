@@ -324,8 +324,8 @@ def _visited(path: _Path) -> tuple[Snapshot, ...]:
         point, known = state.point.towards(part.end, s), whole or s == 1.0
         recover = partial(recovered, prepared, last, point, now)
         if known:
-            lost = sum(loss for t, loss in losses if since < t <= factor)
-            last, since = (here := balanced(prepared, last, recover(), lost)), factor
+            here = balanced(prepared, last, recover(), sum(loss for t, loss in losses if since < t <= factor))
+            last, since = here, factor
         else:
             here = on_the_way(prepared, last, point, now)
         what = interval.ends if s == 1.0 else "event" if factor in happens else "increment"

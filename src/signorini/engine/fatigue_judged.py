@@ -46,27 +46,17 @@ class RubbedPairs:
         frictions, slips = [], []
         for span in spans(history, tuple(request.steps)):
             for contacts in _contacts_of(span):
-                asked = contacts_asked(contacts or span.step.contacts, request)
+                asked = _asked(contacts or span.step.contacts, request)
                 moved = 0.0 if contacts is None else 1.0
                 frictions.append(moved * np.concatenate([_rows(contact.traction) for contact in asked]))
                 slips.append(moved * np.concatenate([_rows(contact.slip) for contact in asked]))
         friction, slip = (np.stack(parts, axis=1) for parts in (frictions, slips))
-        last = contacts_asked(history.last.contacts, request)
+        last = _asked(history.last.contacts, request)
         return cls(friction=friction, slip=slip, tangents=np.concatenate([contact.tangents for contact in last]))
 
     def among(self, pairs: IntArray) -> RubbedPairs:
         """Of some of the pairs."""
         return replace(self, friction=self.friction[pairs], slip=self.slip[pairs], tangents=self.tangents[pairs])
-
-
-def contacts_asked(contacts: Sequence[ContactResult], request: Fatigue) -> list[ContactResult]:
-    """Contacts that a request names; all if it names none.
-
-    Parameters
-    ----------
-    contacts, request : of the model, and what is asked
-    """
-    return [contact for contact in contacts if not request.where or contact.name in request.where]
 
 
 def judged(
@@ -105,6 +95,11 @@ def _ruiz(rubbing: RubbedPairs, stress: Array) -> Damage:
         stress=along.max(axis=1),
         plane=np.full((len(reach), 3), np.nan),
     )
+
+
+def _asked(contacts: Sequence[ContactResult], request: Fatigue) -> list[ContactResult]:
+    """Contacts that a request is about."""
+    return [contact for contact in contacts if request.asks(contact.name)]
 
 
 def _contacts_of(span: Span) -> list[tuple[ContactResult, ...] | None]:

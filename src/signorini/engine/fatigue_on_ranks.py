@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from signorini.arrays import Array, IntArray, distinct, stored
 from signorini.distributed.kept_rows import OwnRows, RowsKept, rows_of_all, rows_together
 from signorini.distributed.mesh_rows import at_hand
-from signorini.distributed.ranks import ON_RANKS, Team, several_ranks
+from signorini.distributed.ranks import ON_RANKS, Team, ranks_with, several_ranks
 from signorini.distributed.shares import PartsOfModel, StrainedPart
 from signorini.engine.examine import on_ranks
 from signorini.engine.fatigue_judged import RubbedPairs, judged
@@ -178,9 +178,8 @@ def places_on_ranks(history: History, request: Fatigue, pairs: Sequence[PairPlac
     history, request : solved, and what is asked
     pairs : of all contacts
     """
-    team, model = several_ranks() if history.backend in ON_RANKS else None, history.model
-    owner = None if team is None else team.owners.get(model.mesh)
-    return None if team is None or owner is None else PlacesOnRanks(team, model, request, pairs, owner)
+    ranks = ranks_with(history.model.mesh) if history.backend in ON_RANKS else None
+    return None if ranks is None else PlacesOnRanks(ranks[0], history.model, request, pairs, ranks[1])
 
 
 def places_to_see(prepared: Prepared) -> list[PlacesOnRanks]:

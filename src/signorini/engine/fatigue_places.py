@@ -161,7 +161,7 @@ def request_places(
     """
     if isinstance(request.criterion, Ruiz):
         assert pairs is not None
-        nodes = _of_pairs(space, model, [own for own in pairs if not request.where or own.contact in request.where])
+        nodes = _of_pairs(space, model, [own for own in pairs if request.asks(own.contact)])
         probe, node = StressProbe.at_nodes(space, model, nodes), nodes[:, 1]
         return RequestPlaces(probe=probe, node=node, points=model.mesh.points[node])
     places = named_places(space, model, request.where)

@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from signorini.errors import InputError, Where
-from signorini.fem.kinematics import BRICKS
 from signorini.fem.space import Space, has_mean_dilatation
 from signorini.model.body import Body, locking_families
 from signorini.model.material import Elastic
@@ -34,7 +33,7 @@ def refuse_locking(model: Model) -> None:
         where = ("body", i, "formulation")
         families = model.mesh.families(body.name)
         found = " and ".join(sorted(families))
-        if body.formulation == "incompatible" and not families.keys() & BRICKS.keys():
+        if body.formulation == "incompatible" and not _has_modes(body, families):
             raise InputError(
                 f"is 'incompatible', but '{body.name}' has no 'quad' or 'hexahedron' cells; it has {found}", where=where
             )
@@ -97,10 +96,13 @@ def modes_in_flow(model: Model) -> dict[str, str]:
             "flow too stiffly, and beyond the limit load its load may rise on; take formulation = 'mean dilatation'"
         )
         for body in model.bodies
-        if body.material.yields
-        and body.formulation == "incompatible"
-        and model.mesh.families(body.name).keys() & BRICKS.keys()
+        if body.material.yields and _has_modes(body, model.mesh.families(body.name))
     }
+
+
+def _has_modes(body: Body, families: Iterable[str]) -> bool:
+    """Whether cells of some of the families have internal modes in a body."""
+    return any(body.formulation_in(family) == "incompatible" for family in families)
 
 
 def thin_bodies(space: Space, model: Model) -> tuple[str, ...]:

@@ -52,6 +52,15 @@ class Fatigue:
                 "is given, and Ruiz's parameters are those of the surface; expected 0", where=("distance",)
             )
 
+    def asks(self, contact: str) -> bool:
+        """Whether it is about a contact: about all of them where no place is named.
+
+        >>> from signorini.fatigue import Ruiz
+        >>> Fatigue(Ruiz()).asks("pad"), Fatigue(Ruiz(), where="bolt").asks("pad")
+        (True, False)
+        """
+        return not self.where or contact in self.where
+
     def check(self, where: Where, contacts: Collection[str], places: Collection[str], steps: Collection[str]) -> None:
         """Look for what is named.
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from signorini.arrays import Array, BoolArray, IntArray, among, places_among, stored
 from signorini.distributed.kept_rows import RowsKept, rows_of_all
 from signorini.distributed.mesh_rows import at_hand
-from signorini.distributed.ranks import Team, several_ranks
+from signorini.distributed.ranks import Team, ranks_with
 from signorini.distributed.shares import FieldShare, shares
 from signorini.model.model import Model
 from signorini.output.atomic_write import atomic_write
@@ -240,9 +240,8 @@ class FieldsOnRanks:
 
 def fields_on_ranks(history: History) -> FieldsOnRanks | None:
     """The bodies of a history that several ranks have solved; None where one process writes one file."""
-    team, model = several_ranks(), history.model
-    owner = None if team is None else team.owners.get(model.mesh)
-    return None if team is None or owner is None else FieldsOnRanks(team, model, owner)
+    ranks = ranks_with(history.model.mesh)
+    return None if ranks is None else FieldsOnRanks(ranks[0], history.model, ranks[1])
 
 
 def _part_of(state: State, u: Array | None, nodes: IntArray) -> Instant:
