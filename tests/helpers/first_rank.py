@@ -213,8 +213,8 @@ def square(array):
     return array.ndim == 2 and len(array) == array.shape[1]
 
 
-def large(roots, count):
-    """Ways to arrays of ``count`` numbers and more that are not whole."""
+def large(roots, count, *, matrices=True):
+    """Ways to arrays of ``count`` numbers and more that are not whole; to square matrices only where they count."""
     found, seen, left = [], set(), [(name, each) for name, each in roots.items()]
     while left:
         way, each = left.pop()
@@ -222,7 +222,7 @@ def large(roots, count):
             continue
         seen.add(id(each))
         if isinstance(each, np.ndarray):
-            if each.dtype.kind == "f" and each.size >= count and not square(each):
+            if each.dtype.kind == "f" and each.size >= count and (matrices or not square(each)):
                 found.append(f"{way} {each.shape}")
         elif isinstance(each, types.FunctionType):
             left += [(way, cell.cell_contents) for cell in each.__closure__ or ()]
@@ -236,13 +236,16 @@ def large(roots, count):
 class Watch:
     """Notes functions of ours that have, when they return, so many numbers that are not whole in an array.
 
-    What the first rank does as one of the ranks is left out, square matrices, which are of the interface, a motion of
-    all nodes that is given, and places of nodes, a little moved ones too, which it has while it makes pairs anew.
+    What the first rank does as one of the ranks is left out, and square matrices, which are of the interface.
+
+    Attributes
+    ----------
+    moved : where nodes move, a motion of all of them that is given, and their places, (nodes, d) each: these are left
+        out then, and places a little beside them, which the first rank has while it makes pairs anew
     """
 
-    def __init__(self, points, motion):
-        self.found, self.count, self.elsewhere = set(), len(points), 0
-        self.points, self.motion = points.copy(), motion
+    def __init__(self, count):
+        self.found, self.count, self.elsewhere, self.moved = set(), count, 0, None
 
     @contextmanager
     def away(self):
@@ -276,14 +279,17 @@ class Watch:
             return any(map(self.large, value.values() if isinstance(value, dict) else value))
         if not (isinstance(value, np.ndarray) and value.dtype.kind == "f" and value.size >= self.count):
             return False
-        return not (square(value) or np.may_share_memory(value, self.motion) or self.places(value))
+        return not (square(value) or (self.moved is not None and self.of_motion(value)))
 
-    def places(self, value):
-        """Whether an array holds where all nodes are, and obstacles behind them."""
-        count, d = self.points.shape
+    def of_motion(self, value):
+        """Whether an array is the motion that is given, or holds where all nodes are, and obstacles behind them."""
+        motion, points = self.moved
+        if np.may_share_memory(value, motion):
+            return True
+        count, d = points.shape
         if value.ndim != 2 or value.shape[1] != d or len(value) < count:
             return False
-        return np.allclose(value[:count], self.points, rtol=0, atol=1e-3)
+        return np.allclose(value[:count], points, rtol=0, atol=1e-3)
 
 
 def written_otherwise(history, prints, folder):
@@ -325,14 +331,16 @@ def main():
     with sg.ranks() as first:
         if first:
             model = MODELS[name]()
-            motion = np.sin(model.mesh.points)
+            motion, points = np.sin(model.mesh.points), model.mesh.points.copy()
             lend(model.mesh)
-            watch, kept = Watch(model.mesh.points, motion), solver_on_ranks.kept_on_ranks
+            watch, kept = Watch(model.mesh.number_of_nodes), solver_on_ranks.kept_on_ranks
             watch.without(Team, "_done")
             for made in ("transform_of", "selection"):  # of other supports: which displacements are free, and ones
                 watch.without(supports, made)
-            for module, made in ((body_side, "make_interface"), (space, "make_facets")):  # pairs where nodes have moved
-                watch.without(module, made)
+            if name in ASKED:
+                watch.moved = motion, points
+                for module, made in ((body_side, "make_interface"), (space, "make_facets")):  # pairs where nodes moved
+                    watch.without(module, made)
             watch.without(prepare, "resistance")  # what they hold of rigid motions: one is the side of the column
 
             def kept_on_ranks(*given):
@@ -348,7 +356,8 @@ def main():
             found["files of text"] = [] if name in ASKED else published(history)
             sys.setprofile(None)
             found["watched"] = sorted(watch.found)
-            found["end"] = large({"model": model, "history": history}, model.mesh.number_of_nodes)
+            left = {"model": model, "history": history}  # of derivatives matrices of the interface, too
+            found["end"] = large(left, model.mesh.number_of_nodes, matrices=name not in ASKED)
             print(json.dumps(found))
 
 
